@@ -15,4 +15,13 @@ bool sameBits(const Range& a, const Range& b) {
   return bytes == 0 || std::memcmp(std::ranges::data(a), std::ranges::data(b), bytes) == 0;
 }
 
+/// While it exists, even a few items are distributed to threads.
+class ThreadsForFew {
+ public:
+  explicit ThreadsForFew(std::size_t items = 4) { leastItemsPerThread() = items; }
+  ~ThreadsForFew() { leastItemsPerThread() = tolerance::kMinItemsPerThread; }
+  ThreadsForFew(const ThreadsForFew&) = delete;
+  ThreadsForFew& operator=(const ThreadsForFew&) = delete;
+};
+
 }  // namespace yadefrag::test

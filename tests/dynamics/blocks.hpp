@@ -8,6 +8,7 @@
 #include "dynamics/critical_time_step.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"
+#include "mesh/shapes.hpp"
 #include "meshing/structured.hpp"
 
 namespace yadefrag {

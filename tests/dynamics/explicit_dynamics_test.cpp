@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.hpp"
 #include "core/same_bits.hpp"
+#include "core/sentence.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/explicit_dynamics.hpp"
@@ -74,12 +74,7 @@ TEST(ExplicitDynamics, AStepOfVelocityRunsAtTheWaveSpeed) {
 }
 
 std::string errorOf(Stepper& run, std::span<const Vec2> outer = {}) {
-  try {
-    run.step(1, outer);
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::saidBy<RunError>([&] { run.step(1, outer); });
 }
 
 TEST(ExplicitDynamics, AStepThatTurnsAnElementInsideOutIsTakenBack) {
@@ -88,12 +83,8 @@ TEST(ExplicitDynamics, AStepThatTurnsAnElementInsideOutIsTakenBack) {
   run.model.nodes.velocity[40] = {.004 / run.dt, 0};  // across its neighbours
   const Nodes before = run.model.nodes;
   run.step();
-  std::string message;
-  try {
-    run.dynamics.requireUpright(run.model, run.dt, 0);
-  } catch (const RunError& error) {
-    message = error.what();
-  }
+  const std::string message =
+      test::saidBy<RunError>([&] { run.dynamics.requireUpright(run.model, run.dt, 0); });
   EXPECT_NE(message.find("of component 0 at ("), std::string::npos) << message;
   EXPECT_NE(message.find(" is inverted in a step of"), std::string::npos) << message;
   run.dynamics.takeBack(run.model);

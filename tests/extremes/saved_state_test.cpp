@@ -5,7 +5,7 @@
 #include <boost/archive/binary_oarchive.hpp>
 
 #include "extremes/limits.hpp"
-#include "extremes/saved_world.hpp"
+#include "step/eventful_scenes.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "extremes/block_collision.hpp"
-#include "extremes/number_text.hpp"
+#include "extremes/limits.hpp"
 #include "outline/polygon.hpp"
 
 namespace yadefrag::test {
@@ -62,9 +62,9 @@ World shotAtPlate(const Shot& shot) {
   world.addBody(plate, held);
   TriangleMesh block = structuredRectangle({-.1, -.1}, {.1, .1}, 1 + shot.seed % 4, 2);
   const double turn = from(0, 6), way = from(-2.8, -.3), x = from(-.3, .3);
-  for (Vec2& node : block.nodes) node = Vec2{x, .2} + turned(node, turn);
+  for (Vec2& node : block.nodes) node = Vec2{x, .2} + turnedBy(node, turn);
   const double speed = shot.speed * waveSpeed(rubber());
-  world.addBody(block, moving(block, rubber(), turned({speed, 0}, way)));
+  world.addBody(block, moving(block, rubber(), turnedBy({speed, 0}, way)));
   return world;
 }
 

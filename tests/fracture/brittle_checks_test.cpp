@@ -7,12 +7,13 @@
 #include <limits>
 #include <numbers>
 
-#include "core/errors.hpp"
+#include "core/sentence.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"
 #include "fracture/separation.hpp"
 #include "mesh/assembly.hpp"
+#include "mesh/shapes.hpp"
 #include "meshing/structured.hpp"
 
 namespace yadefrag {
@@ -25,18 +26,8 @@ const BrittleMaterial kBrittle{.tensileStrength = 300e6, .fractureEnergy = 100};
 const BrittleMaterial kTough{.tensileStrength = 300e6, .fractureEnergy = 300};
 constexpr ComponentId kBody(std::size_t{0});
 
-/// The sentence of the InputError that the call throws; empty if it does not.
-std::string saidBy(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 std::string saidOf(const BrittleMaterial& material) {
-  return saidBy([&] { checkBrittle(material); });
+  return test::refusalOf([&] { checkBrittle(material); });
 }
 
 /// The number in a sentence that follows the words.
@@ -66,7 +57,7 @@ double crossedOf(double h, double dt, double strength) {
 }
 
 std::string saidAtStep(const Model& model, double dt) {
-  return saidBy([&] { checkCohesiveResolution(model, kBody, dt); });
+  return test::refusalOf([&] { checkCohesiveResolution(model, kBody, dt); });
 }
 
 TEST(CheckBrittle, AcceptsPossibleValues) {
@@ -238,9 +229,7 @@ TEST(CohesiveZoneWarning, StatesAZoneThatIsLongBesideTheBody) {
       "than half of the body's smallest width of 0.01 m");
   for (const double angle : {.1, .35, .8, 1.2, 2., 3.}) {
     Model turned = body(20, material);
-    for (Vec2& at : turned.nodes.position)
-      at = {at.x * std::cos(angle) - at.y * std::sin(angle),
-            at.x * std::sin(angle) + at.y * std::cos(angle)};
+    for (Vec2& at : turned.nodes.position) at = test::turnedBy(at, angle);
     EXPECT_EQ(cohesiveZoneWarning(turned, kBody), sentence) << angle;
   }
   material.fractureEnergy = numberAfter(sentence, "with a fractureEnergy of at most ");

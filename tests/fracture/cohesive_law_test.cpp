@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/sentence.hpp"
 #include "fracture/cohesive_law.hpp"
-#include "fracture/softening_curves.hpp"
+#include "fracture/two_triangles.hpp"
 #include "mesh/softening_curve.hpp"
 
 namespace yadefrag::test {
@@ -252,12 +252,7 @@ TEST(SofteningCurve, TheSteepestLineBoundsEveryFall) {
 }
 
 std::string said(const std::vector<SofteningPoint>& points) {
-  try {
-    (void)SofteningCurve(points);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return refusalOf([&] { (void)SofteningCurve(points); });
 }
 
 TEST(SofteningCurve, RefusesPointsThatAreNoCurveByOneSentence) {

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "fracture/cohesive_law.hpp"
-#include "fracture/softening_curves.hpp"
 #include "fracture/two_triangles.hpp"
 
 namespace yadefrag::test {

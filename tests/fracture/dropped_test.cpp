@@ -24,20 +24,14 @@ World impact(double fractureEnergy, bool held, double area, int threads = 1) {
   World world;
   world.threads = threads;
   world.fracture.minFragmentArea = area;
-  const TriangleMesh block =
-      triangulate({{{-.01, -.01}, {.01, -.01}, {.01, 0}, {-.01, 0}}, {}}, kSize);
+  const TriangleMesh block = triangulate({box({-.01, -.01}, {.01, 0}), {}}, kSize);
   BodySpec ceramic = moving(block, {370e9, .22, 3900, false}, {0, 0});
   ceramic.brittle.tensileStrength = 300e6;
   ceramic.brittle.fractureEnergy = fractureEnergy;
   ceramic.brittle.strengthScatter = .1;
   if (held) hold(ceramic, block, kHeldXY, [](Vec2 at) { return at.y < -.01 + 1e-9; });
   world.addBody(block, ceramic);
-  Polygon circle;
-  for (int k = 0; k < 32; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 32;
-    circle.outline.push_back({1e-4 + .005 * std::cos(angle), .005005 + .005 * std::sin(angle)});
-  }
-  const TriangleMesh disc = triangulate(circle, kSize);
+  const TriangleMesh disc = triangulate({circle({1e-4, .005005}, .005, 32), {}}, kSize);
   world.addBody(disc, moving(disc, steel(), {0, -100}));
   return world;
 }

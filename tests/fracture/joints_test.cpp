@@ -9,9 +9,9 @@
 
 #include "core/errors.hpp"
 #include "core/same_bits.hpp"
-#include "extremes/saved_world.hpp"
 #include "fracture/refused_body.hpp"
 #include "step/bodies.hpp"
+#include "step/eventful_scenes.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {
@@ -25,9 +25,7 @@ std::vector<JointEdge> withStrength(const TriangleMesh& mesh, double strength, d
   return edges;
 }
 
-Polygon rectangle(Vec2 low, Vec2 high) {
-  return {{low, {high.x, low.y}, high, {low.x, high.y}}, {}};
-}
+Polygon rectangle(Vec2 low, Vec2 high) { return {box(low, high), {}}; }
 
 // --- a plate with a crack through its middle, of unit modulus, density and half width
 

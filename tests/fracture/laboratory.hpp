@@ -27,21 +27,6 @@ inline double mohrCoulomb(const BodySpec& spec, double confining) {
   return (2 * c * std::sqrt(1 - s * s) + confining * (1 + s)) / (1 - s);
 }
 
-inline Vec2 turnedBy(Vec2 p, double angle) {
-  return {std::cos(angle) * p.x - std::sin(angle) * p.y,
-          std::sin(angle) * p.x + std::cos(angle) * p.y};
-}
-
-/// The mesh of the outline that is turned by `angle` (rad), turned back: whatever the mesher
-/// prefers points elsewhere, and the platens stay level.
-inline TriangleMesh turnedMesh(Polygon polygon, const SizeField& size, MeshLayout layout,
-                               double angle) {
-  for (Vec2& p : polygon.outline) p = turnedBy(p, angle);
-  TriangleMesh mesh = triangulate(polygon, size, layout);
-  for (Vec2& p : mesh.nodes) p = turnedBy(p, -angle);
-  return mesh;
-}
-
 /// Which mesh, and how fast.
 struct Trial {
   double size = 0;  ///< m
@@ -52,16 +37,13 @@ struct Trial {
   double crossings = 100;  ///< of the specimen by a wave, in the time that it is loaded
 
   [[nodiscard]] TriangleMesh mesh(Polygon polygon) const {
-    return turnedMesh(std::move(polygon), size, {layout, seed}, turned * std::numbers::pi / 180);
+    return turnedMesh(std::move(polygon), size, turned, {layout, seed});
   }
 };
 
 /// Nodes at the height `y` (m) of the stress-free shape.
 inline std::vector<NodeId> nodesAtHeight(const World& world, double y) {
-  std::vector<NodeId> found;
-  for (std::size_t n = 0; n < world.model.nodes.reference.size(); ++n)
-    if (std::abs(world.model.nodes.reference[n].y - y) < 1e-9) found.emplace_back(n);
-  return found;
+  return nodesWhere(world.model.nodes, [y](Vec2 x) { return std::abs(x.y - y) < 1e-9; });
 }
 
 /// (m) Of the first edge that has cracked, its middle.

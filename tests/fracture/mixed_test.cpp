@@ -163,16 +163,13 @@ TEST(Mixed, AnInterfaceMayCrackBetweenMaterialsThatDoNot) {
 
 /// A square with a round inclusion, pulled apart: cracks pass around what is stronger.
 World inclusion(double strengthOfInclusion) {
-  const Polygon outline{{{0, 0}, {.1, 0}, {.1, .1}, {0, .1}}, {}};
-  JointLines circle;
-  constexpr int kSides = 20;
-  const auto at = [](int k) {
-    const double angle = 2 * M_PI * k / kSides;
-    return Vec2{.05 + .02 * std::cos(angle), .05 + .02 * std::sin(angle)};
-  };
-  for (int k = 0; k < kSides; ++k) circle.push_back({at(k), at(k + 1)});
+  const Polygon outline{box({0, 0}, {.1, .1}), {}};
+  const Loop corners = circle({.05, .05}, .02, 20);
+  JointLines lines;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    lines.push_back({corners[k], corners[(k + 1) % corners.size()]});
   const TriangleMesh mesh =
-      triangulate(outline, 5e-3, {NodeLayout::kScattered, 1}, INFINITY, circle);
+      triangulate(outline, 5e-3, {NodeLayout::kScattered, 1}, INFINITY, lines);
   BodySpec spec;
   spec.materials.materials = {brittle(10e9, 3e6, 30), brittle(30e9, strengthOfInclusion, 30)};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

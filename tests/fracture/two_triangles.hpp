@@ -1,6 +1,11 @@
 #pragma once
 // Two triangles left and right of the edge x = 0: all of a cohesive law, and hardly anything else.
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/softening_curve.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -31,6 +36,16 @@ inline Vec2 openingOf(const World& world, std::size_t end) {
   const auto& right = world.model.triangles.nodes[1];
   const auto& x = world.model.nodes.position;
   return x[right[end == 0 ? 0 : 2].value] - x[left[end].value];
+}
+
+/// The named ones, and tables: a plateau before a steep fall, a step, uneven points.
+inline std::vector<std::pair<std::string, SofteningCurve>> softeningCurves() {
+  std::vector<std::pair<std::string, SofteningCurve>> all;
+  for (const std::string_view name : softeningNames()) all.emplace_back(name, softeningNamed(name));
+  all.emplace_back("plateau", SofteningCurve({{0, 1}, {.6, 1}, {1, 0}}));
+  all.emplace_back("step", SofteningCurve({{0, 1}, {.1, .9}, {.2, .3}, {.7, .3}, {1, 0}}));
+  all.emplace_back("uneven", SofteningCurve({{0, 1}, {.01, .8}, {.3, .25}, {.9, .2}, {1, 0}}));
+  return all;
 }
 
 }  // namespace yadefrag::test

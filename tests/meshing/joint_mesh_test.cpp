@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/sentence.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "meshing/size_field.hpp"
 #include "meshing/triangulate.hpp"
@@ -143,14 +143,11 @@ TEST(JointMesh, WithoutJointsTheMeshIsAsItWas) {
 TEST(JointMesh, ImpossibleArgumentsAreRefused) {
   const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
   const auto expectRefused = [&](const std::array<Vec2, 2>& joint, const std::string& part) {
-    try {
+    const std::string text = refusalOf([&] {
       (void)triangulate(plate, .1, {}, INFINITY, JointLines{{{{.2, .2}, {3, .3}}}, joint});
-      FAIL() << part;
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      EXPECT_EQ(text.find("joints[1] from ("), 0) << text;
-      EXPECT_NE(text.find(part), std::string::npos) << text;
-    }
+    });
+    EXPECT_EQ(text.find("joints[1] from ("), 0) << text;
+    EXPECT_NE(text.find(part), std::string::npos) << text;
   };
   expectRefused({{{5, 0}, {6, 1}}}, "must run inside the outline");
   expectRefused({{{1.2, .7}, {1.8, 1.2}}}, "must run inside the outline");  // in the hole

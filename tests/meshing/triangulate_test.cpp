@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "core/errors.hpp"
 #include "core/random_bits.hpp"
+#include "core/sentence.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
 #include "meshing/curve_numbering.hpp"
@@ -184,14 +184,8 @@ TEST(Triangulate, NumbersFollowTheCurve) {
 TEST(Triangulate, BadSizes) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   const Polygon square{box({0, 0}, {1, 1}), {}};
-  const auto messageFor = [](const Polygon& polygon, double size,
-                             double mostBytes = INFINITY) -> std::string {
-    try {
-      (void)triangulate(polygon, size, {}, mostBytes);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto messageFor = [](const Polygon& polygon, double size, double mostBytes = INFINITY) {
+    return refusalOf([&] { (void)triangulate(polygon, size, {}, mostBytes); });
   };
   for (const double size : {0., -1., std::nan(""), kInf})
     EXPECT_NE(messageFor(square, size).find("must be positive and finite."), std::string::npos);
@@ -208,12 +202,6 @@ TEST(Triangulate, BadSizes) {
 // --- Meshes for bodies that crack: edges in all directions, triangles as good as rows give.
 
 MeshLayout scattered(std::uint64_t seed) { return {NodeLayout::kScattered, seed}; }
-
-Loop turned(Loop loop, double degrees) {
-  const double c = std::cos(degrees * kDegree), s = std::sin(degrees * kDegree);
-  for (Vec2& p : loop) p = {c * p.x - s * p.y, s * p.x + c * p.y};
-  return loop;
-}
 
 /// (s) Of a body that cracks, without loads.
 double criticalStep(const TriangleMesh& mesh) {
@@ -263,7 +251,7 @@ TEST(IrregularMesh, HasNoDirection) {
   for (const double degrees : {0., 15., 30.})
     for (const double size : {.01, .007}) {
       SCOPED_TRACE(testing::Message() << degrees << " degrees, size " << size);
-      const Polygon square{turned(box({0, 0}, {1, 1}), degrees), {}};
+      const Polygon square{turnedLoop(box({0, 0}, {1, 1}), degrees * kDegree), {}};
       expectWithoutDirection(triangulate(square, size, scattered(++seed)), size);
     }
 }

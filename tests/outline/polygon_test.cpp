@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "core/errors.hpp"
+#include "core/sentence.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "outline/convex_hull.hpp"
 #include "outline/polygon.hpp"
@@ -20,12 +20,7 @@ namespace yadefrag::test {
 namespace {
 
 std::string messageFor(const Polygon& polygon) {
-  try {
-    (void)checkPolygon(polygon);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusalOf([&] { (void)checkPolygon(polygon); });
 }
 
 const Loop kSquare = box({0, 0}, {4, 4});
@@ -151,12 +146,7 @@ const std::string kPlate = "# a plate\n\n0 0  # corner\n4 0\n4 3\r\n\n\n1 1\n1 2
 
 /// "" if it can be read.
 std::string refusal(const std::string& text) {
-  try {
-    (void)polygonFromText(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return refusalOf([&] { (void)polygonFromText(text); });
 }
 
 TEST(PolygonText, LoopsAreApartByEmptyLines) {
@@ -187,8 +177,7 @@ TEST(PolygonText, DamagedTextIsReadOrRefusedInASentence) {
     const std::string sentence = refusal(text);
     if (sentence.empty()) continue;
     ++refused;
-    ASSERT_TRUE(sentence.starts_with("line ") && sentence.ends_with(".")) << sentence;
-    ASSERT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    ASSERT_TRUE(sentence.starts_with("line ") && !HasFailure()) << sentence;
   }
   EXPECT_GT(refused, 5000);
   EXPECT_LT(refused, 19000);
@@ -210,11 +199,8 @@ TEST(SmallestWidth, IsThatOfTheHullInAnyPosition) {
       {{{0, 0}, {1, 0}, {2, 0}, {2, 0}}, 0}};
   for (const Case& one : cases)
     for (const double angle : {0., .3, 1., 2.5, 4.}) {
-      std::vector<Vec2> turned;
-      for (const Vec2 at : one.points)
-        turned.push_back({at.x * std::cos(angle) - at.y * std::sin(angle),
-                          at.x * std::sin(angle) + at.y * std::cos(angle)});
-      EXPECT_NEAR(smallestWidth(turned), one.width, 1e-13) << one.points.size() << angle;
+      EXPECT_NEAR(smallestWidth(turnedLoop(one.points, angle)), one.width, 1e-13)
+          << one.points.size() << angle;
     }
 }
 

@@ -3,8 +3,10 @@
 
 #include <functional>
 
+#include "mesh/shapes.hpp"
 #include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
+#include "step/energy_watch.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {
@@ -24,6 +26,18 @@ inline void hold(BodySpec& spec, const TriangleMesh& mesh, std::uint8_t held,
   spec.held.resize(mesh.nodes.size());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     if (where(mesh.nodes[i])) spec.held[i] |= held;
+}
+
+/// The mesh of the outline turned by `degrees`, turned back: whatever the mesher prefers points
+/// elsewhere.
+inline TriangleMesh turnedMesh(Polygon polygon, const SizeField& size, double degrees,
+                               MeshLayout layout = {}) {
+  const double angle = degrees * std::numbers::pi / 180;
+  polygon.outline = turnedLoop(polygon.outline, angle);
+  for (Loop& hole : polygon.holes) hole = turnedLoop(hole, angle);
+  TriangleMesh mesh = triangulate(polygon, size, layout);
+  mesh.nodes = turnedLoop(mesh.nodes, -angle);
+  return mesh;
 }
 
 inline void smoothAll(BodySpec& spec, const TriangleMesh& mesh) {
@@ -49,5 +63,8 @@ inline double mass(const World& world, ComponentId component) {
     if (world.model.nodes.component[i] == component) sum += world.model.nodes.mass[i];
   return sum;
 }
+
+/// Step 7 at .5 s, of .1 s, without penetration; the shortest segment 1 m, the halo .5 m.
+inline WatchedStep stepOf(const EnergyLedger& ledger) { return {7, .5, .1, 0, 1, .5, ledger}; }
 
 }  // namespace yadefrag::test

@@ -193,13 +193,8 @@ TEST(SmoothGap, ClosesLaterByTheHalfpointsOfBothBalls) {
     const double side = 2 * kRadius * std::sin(std::numbers::pi / sides);
     World world;
     for (const int k : {0, 1}) {
-      std::vector<Vec2> outline;
-      for (int i = 0; i < sides; ++i) {
-        const double angle = 2 * std::numbers::pi * i / sides;
-        outline.push_back(Vec2{k * (2 * kRadius + kGap), 0} +
-                          kRadius * Vec2{std::cos(angle), std::sin(angle)});
-      }
-      const TriangleMesh mesh = triangulate({std::move(outline), {}}, side);
+      const TriangleMesh mesh =
+          triangulate({circle({k * (2 * kRadius + kGap), 0}, kRadius, sides), {}}, side);
       BodySpec spec;
       spec.material = {1e7, .3, 1000, false};
       spec.selfContact = false;

@@ -19,15 +19,6 @@
 namespace yadefrag::test {
 namespace {
 
-std::vector<Vec2> circle(Vec2 centre, double radius, int count) {
-  std::vector<Vec2> points;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count;
-    points.push_back(centre + radius * Vec2{std::cos(angle), std::sin(angle)});
-  }
-  return points;
-}
-
 TriangleMesh ring(double inner, double outer, int count, int countInside) {
   return triangulate(checkPolygon({circle({}, outer, count), {circle({}, inner, countInside)}}),
                      2 * std::numbers::pi * outer / count);

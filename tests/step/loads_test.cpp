@@ -25,24 +25,12 @@ World oneBlock(Vec2 low = {0, 0}, Vec2 velocity = {0, 0}) {
   return world;
 }
 
-std::vector<NodeId> nodesWhere(const World& world, auto isChosen) {
-  std::vector<NodeId> nodes;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    if (isChosen(world.model.nodes.position[n])) nodes.emplace_back(n);
-  return nodes;
-}
-
-Vec2 totalMomentum(const World& world) {
-  Vec2 sum;
-  const Nodes& nodes = world.model.nodes;
-  for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * nodes.velocity[n];
-  return sum;
-}
+Vec2 totalMomentum(const World& world) { return momentsOf(world.model.nodes).linear; }
 
 TEST(Pressure, PushesAlongTheNormalAndChangesInTime) {
   World world = oneBlock();
   const double dt = .5 * world.criticalTimeStep();
-  world.setPressure(nodesWhere(world, [](Vec2 x) { return x.x == 0; }),
+  world.setPressure(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; }),
                     TimeTable({0, 2 * dt}, {100, 300}));
   double sum = 0;
   for (const double pressure : {100, 200, 300, 300}) {
@@ -54,7 +42,7 @@ TEST(Pressure, PushesAlongTheNormalAndChangesInTime) {
 
 TEST(Pressure, TheLastOneCounts) {
   World world = oneBlock();
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; });
   for (const double pressure : {1., 2., 3.}) world.setPressure(left, TimeTable(pressure));
   EXPECT_EQ(world.loads.pressures.size(), 1U);
   world.setPressure(left, TimeTable(0));
@@ -65,8 +53,8 @@ TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
   World world = oneBlock({5, 0});
   const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 3, 3, QuadPattern::kCrossed);
   world.addBody(mesh, moving(mesh, kRubber, {0, 0}));
-  world.setPressure(nodesWhere(world, [](Vec2 x) { return x.x == 0; }), TimeTable(10));
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  world.setPressure(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; }), TimeTable(10));
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1; }));
   world.removeBody(ComponentId(0));
   const double dt = .1 * world.criticalTimeStep();
   world.step(dt);
@@ -97,7 +85,7 @@ TEST(Pressure, SpreadsAlongNewSides) {
 // Of a body that moves as one, the dashpots take ρcv on each square metre at once.
 TEST(Absorbing, TakesImpedanceTimesVelocity) {
   World world = oneBlock({0, 0}, {.1, .2});
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1; }));
   const Vec2 before = totalMomentum(world);
   const double dt = 1e-6 * world.criticalTimeStep();
   world.step(dt);
@@ -121,7 +109,7 @@ TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
   }
   World world;
   world.addBody(mesh, spec);
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1; }));
   const Vec2 before = totalMomentum(world);
   const double dt = 1e-6 * world.criticalTimeStep();
   world.step(dt);
@@ -137,7 +125,7 @@ TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
 
 TEST(Absorbing, TheEnergyBalanceHolds) {
   World world = oneBlock({0, 0}, {.1, .2});
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1 || x.y == 0; }));
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1 || x.y == 0; }));
   const double before = world.kineticEnergy();
   const double dt = .8 * world.criticalTimeStep();
   for (int k = 0; k < 400; ++k) world.step(dt);
@@ -149,7 +137,7 @@ TEST(Absorbing, TheEnergyBalanceHolds) {
 
 TEST(Loads, ARefusedStepLeavesThemAsTheyWere) {
   World world = oneBlock();
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; });
   world.setPressure(left, TimeTable(10));
   world.setAbsorbing(left);
   const double dt = .5 * world.criticalTimeStep();
@@ -169,7 +157,7 @@ TEST(Loads, ARefusedStepLeavesThemAsTheyWere) {
 TEST(Loads, WrongOnesAreRefused) {
   World world = oneBlock();
   const NodeId one[] = {NodeId(0)}, none[] = {NodeId(999)};
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; });
   EXPECT_THROW(world.setPressure(one, TimeTable(1)), InputError);
   EXPECT_THROW(world.setPressure(none, TimeTable(1)), InputError);
   EXPECT_THROW(world.setPressure(left, TimeTable({1, 0}, {1, 1})), InputError);
@@ -181,9 +169,7 @@ TEST(Loads, WrongOnesAreRefused) {
 // --- Nodes that a motion moves: where they are, what it costs, and what is refused.
 
 std::vector<NodeId> all(const World& world) {
-  std::vector<NodeId> nodes;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n) nodes.emplace_back(n);
-  return nodes;
+  return nodesWhere(world.model.nodes, [](Vec2) { return true; });
 }
 
 // Rounding of the place alone, however many steps: 10⁻¹⁵ of a radius of 3 m.

@@ -35,11 +35,6 @@ struct Collision {
   double young = 210e9;  ///< Pa
 };
 
-struct Moments {
-  Vec2 linear;         // kg m/s
-  double angular = 0;  // kg m²/s; x × v is the same with the positions at both ends of the step
-};
-
 /// The largest errors of a run.
 struct Errors {
   double impulse = 0;  ///< N s, Σ of the contact force on the left one
@@ -49,14 +44,10 @@ struct Errors {
 };
 
 TriangleMesh meshOf(const Half& half) {
-  Polygon polygon;
   const bool square = half.shape == Shape::kSquare;
-  const int corners = square ? 4 : half.around;
-  const double radius = square ? kSize / std::numbers::sqrt2 : kSize / 2;
-  for (int k = 0; k < corners; ++k) {
-    const double angle = half.turn + 2 * std::numbers::pi * k / corners;
-    polygon.outline.push_back(half.centre + radius * Vec2{std::cos(angle), std::sin(angle)});
-  }
+  const Polygon polygon{circle(half.centre, square ? kSize / std::numbers::sqrt2 : kSize / 2,
+                               square ? 4 : half.around, half.turn),
+                        {}};
   return triangulate(polygon, std::numbers::pi * kSize / half.around);
 }
 
@@ -74,16 +65,6 @@ void add(World& world, const Half& half, const Collision& c) {
   world.addBody(mesh, spec);
 }
 
-Moments moments(const World& world) {
-  Moments sum;
-  const Nodes& nodes = world.model.nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    sum.linear += nodes.mass[i] * nodes.velocity[i];
-    sum.angular += nodes.mass[i] * cross(nodes.position[i], nodes.velocity[i]);
-  }
-  return sum;
-}
-
 /// Until both have moved by their size.
 Errors collide(const Collision& c) {
   World world;
@@ -91,7 +72,7 @@ Errors collide(const Collision& c) {
   add(world, c.left, c);
   add(world, c.right, c);
   const double dt = .8 * world.criticalTimeStep(), until = kSize / norm(c.left.velocity);
-  const Moments before = moments(world);
+  const Moments before = momentsOf(world.model.nodes);
   const double energy = totalEnergy(world);
   Errors worst;
   while (world.time < until) {
@@ -100,7 +81,7 @@ Errors collide(const Collision& c) {
     for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
       if (world.model.nodes.component[i] == ComponentId(0)) force += world.contact.forces()[i];
     worst.impulse += norm(force) * dt;
-    const Moments now = moments(world);
+    const Moments now = momentsOf(world.model.nodes);
     worst.linear = std::max(worst.linear, norm(now.linear - before.linear));
     worst.angular = std::max(worst.angular, std::abs(now.angular - before.angular));
     worst.growth =
@@ -236,9 +217,7 @@ BodySpec block(const TriangleMesh& mesh, Vec2 velocity, double friction = 0) {
 /// A square of 0.1 m, its lower left corner at `at`, turned by `angle` about that.
 TriangleMesh square(Vec2 at, double angle = 0) {
   TriangleMesh mesh = structuredRectangle({0, 0}, {.1, .1}, 4, 4);
-  for (Vec2& node : mesh.nodes)
-    node = at + Vec2{std::cos(angle) * node.x - std::sin(angle) * node.y,
-                     std::sin(angle) * node.x + std::cos(angle) * node.y};
+  for (Vec2& node : mesh.nodes) node = at + turnedBy(node, angle);
   return mesh;
 }
 

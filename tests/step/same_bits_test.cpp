@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/same_bits.hpp"
-#include "core/threads_for_few.hpp"
 #include "extremes/limits.hpp"
 #include "step/eventful_scenes.hpp"
 

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "core/same_bits.hpp"
-#include "core/threads_for_few.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "cut_mesh_checks.hpp"
+#include "cut_mesh.hpp"
 #include "meshing/structured.hpp"
 #include "surface/contact_surface.hpp"
 #include "surface_checks.hpp"

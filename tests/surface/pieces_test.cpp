@@ -9,6 +9,7 @@
 
 #include "contact/contact_scenes.hpp"
 #include "core/random.hpp"
+#include "mesh/shapes.hpp"
 #include "surface/bezier_arc.hpp"
 #include "surface/disc_contact.hpp"
 #include "surface/piece_geometry.hpp"
@@ -185,11 +186,7 @@ TEST(PieceGeometry, BoxHoldsThePieceAndEndsAreItsEnds) {
 }
 
 TEST(PieceGeometry, SmoothCircleIsNearlyRoundAndItsNormalsPointOutward) {
-  std::vector<Vec2> x;
-  for (int i = 0; i < 40; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 40;
-    x.push_back({std::cos(angle), std::sin(angle)});
-  }
+  const Loop x = circle({}, 1, 40);
   const ContactSurfaces s = oneLoop(std::vector<std::uint8_t>(40, 1));
   const PieceGeometry g(s, x);
   double perimeter = 0;
@@ -281,22 +278,13 @@ double distanceTo(const SurfaceScene& scene, Vec2 from) {
   return least;
 }
 
-std::vector<Vec2> polygon(int corners) {
-  std::vector<Vec2> points;
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / corners;
-    points.push_back({std::cos(angle), std::sin(angle)});
-  }
-  return points;
-}
-
 class DiscOnAConvexBody : public testing::TestWithParam<int> {};
 
 /// One piece pushes it, by its radius less the distance of its centre, away from the boundary.
 TEST_P(DiscOnAConvexBody, IsPushedByOnePieceByItsOverlap) {
   Random random(4);
   SurfaceScene scene;
-  scene.addBody(polygon(7), smoothFlags(random, 7, GetParam()));
+  scene.addBody(circle({}, 1, 7), smoothFlags(random, 7, GetParam()));
   const std::vector<BoundaryPiece> pieces = piecesOf(scene);
   for (int k = 0; k < 300; ++k) {
     const double angle = even(random, 0, 2 * std::numbers::pi), far = even(random, 1.01, 1.6);
@@ -322,7 +310,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DiscOnAConvexBody, testing::Values(0, 1, 2), smo
 TEST(DiscContact, FootOnAnArcIsThatOfContact) {
   Random random(5);
   SurfaceScene scene;
-  scene.addBody(polygon(9), smoothFlags(random, 9, 1));
+  scene.addBody(circle({}, 1, 9), smoothFlags(random, 9, 1));
   const std::vector<BoundaryPiece> pieces = piecesOf(scene);
   int found = 0;
   for (int k = 0; k < 2000; ++k) {

@@ -15,7 +15,6 @@
 namespace yadefrag::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGravity = 9.81;                // m/s²
 constexpr double kFrictionAngle = 25 * kDegree;  // rad
 

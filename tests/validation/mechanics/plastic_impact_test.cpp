@@ -97,7 +97,7 @@ struct Strip {
     const TriangleMesh mesh = triangulate(polygon, kSize, {layout, 1});
     hold(spec, mesh, kHeldY, [](Vec2) { return true; });
     world.addBody(mesh, spec);
-    left = nodesWhere(world, [](Vec2 x) { return x.x < 1e-9; });
+    left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x < 1e-9; });
     world.prescribe(left, kHeldXY, {speed, 0});
     world.dynamicsSettings.viscosity = {.06, 1.2};
     dt = .8 * world.criticalTimeStep();
@@ -190,8 +190,8 @@ Spall spall(double degrees, double size) {
   const TriangleMesh mesh = turnedMesh(polygon, size, degrees, {NodeLayout::kScattered, 1});
   hold(spec, mesh, kHeldY, [](Vec2) { return true; });
   world.addBody(mesh, spec);
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x < 1e-9; });
-  const auto right = nodesWhere(world, [](Vec2 x) { return x.x > kPlate - 1e-9; });
+  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x < 1e-9; });
+  const auto right = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x > kPlate - 1e-9; });
   world.prescribeMotion(left, kHeldXY, {.speedX = TimeTable({0, .3e-6, 3e-6}, {0, 90, 0})});
   world.dynamicsSettings.viscosity = {.06, 1.2};
   const double dt = .8 * world.criticalTimeStep();

@@ -24,7 +24,8 @@ double punched(double size, bool rough, double degrees, ElementKind kind = Eleme
   World world;
   world.addBody(mesh, spec);
   const double speed = 1;  // m/s
-  const auto under = nodesWhere(world, [](Vec2 x) { return x.y > -1e-9 && x.x < kHalf * 1.0001; });
+  const auto under =
+      nodesWhere(world.model.nodes, [](Vec2 x) { return x.y > -1e-9 && x.x < kHalf * 1.0001; });
   std::vector<NodeId> free, centre;
   for (const NodeId n : under)
     (world.model.nodes.reference[n.value].x < 1e-9 ? centre : free).push_back(n);
@@ -67,22 +68,18 @@ constexpr double kFooting = .5;  // m, half of the footing
 /// Mesh of the right half, turned by `degrees` and back. It is fine at the end of the footing,
 /// where the stress is singular.
 TriangleMesh halfSpace(double wide, double deep, double finest, double degrees) {
-  const double c = std::cos(degrees * std::numbers::pi / 180),
-               s = std::sin(degrees * std::numbers::pi / 180);
-  const auto turned = [&](Vec2 p, double by) {
-    return Vec2{c * p.x - by * s * p.y, by * s * p.x + c * p.y};
-  };
+  const double angle = degrees * std::numbers::pi / 180;
   Polygon half{{{0, -deep}, {wide, -deep}, {wide, 0}, {kFooting, 0}, {0, 0}}, {}};
   Vec2 low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
   for (Vec2& p : half.outline) {
-    p = turned(p, 1);
+    p = turnedBy(p, angle);
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   constexpr double kCell = .05;
   const auto columns = static_cast<std::uint32_t>((high.x - low.x) / kCell) + 2;
   const auto rows = static_cast<std::uint32_t>((high.y - low.y) / kCell) + 2;
-  const Vec2 end = turned({kFooting, 0}, 1);
+  const Vec2 end = turnedBy({kFooting, 0}, angle);
   std::vector<double> sizes;
   for (std::uint32_t j = 0; j < rows; ++j)
     for (std::uint32_t i = 0; i < columns; ++i) {
@@ -91,7 +88,7 @@ TriangleMesh halfSpace(double wide, double deep, double finest, double degrees) 
     }
   TriangleMesh mesh =
       triangulate(half, SizeField(low, kCell, columns, sizes), {NodeLayout::kRows, 1});
-  for (Vec2& p : mesh.nodes) p = turned(p, -1);
+  mesh.nodes = turnedLoop(mesh.nodes, -angle);
   return mesh;
 }
 
@@ -110,7 +107,7 @@ double footing(double finest, double degrees, ElementKind kind = ElementKind::kS
   World world;
   world.addBody(mesh, spec);
   const auto under =
-      nodesWhere(world, [](Vec2 x) { return x.y > -1e-9 && x.x < kFooting * 1.0001; });
+      nodesWhere(world.model.nodes, [](Vec2 x) { return x.y > -1e-9 && x.x < kFooting * 1.0001; });
   // The damping acts against the flow: with five times its force the pressure is 0.03 higher.
   constexpr double kSpeed = .02;  // m/s
   world.prescribe(under, kHeldXY, {0, -kSpeed});
@@ -154,7 +151,7 @@ class Tube {
     mesh_ = turnedMesh({circleOf(kOuter, size, 1), {circleOf(kInner, size, -1)}}, size, degrees);
     spec = idealSteel(300e6, kind);
     world.addBody(mesh_, spec);
-    inner_ = nodesWhere(world, [&](Vec2 x) { return norm(x) < kInner * 1.0001; });
+    inner_ = nodesWhere(world.model.nodes, [&](Vec2 x) { return norm(x) < kInner * 1.0001; });
     std::vector<Vec2> speeds;
     for (const NodeId n : inner_) {
       const Vec2 x = world.model.nodes.reference[n.value];
