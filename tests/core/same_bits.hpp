@@ -5,6 +5,8 @@
 #include <cstring>
 #include <ranges>
 
+#include "core/parallel.hpp"
+
 namespace yadefrag::test {
 
 template <std::ranges::contiguous_range Range>

@@ -14,9 +14,6 @@
 namespace yadefrag::test {
 namespace {
 
-constexpr double kStrength = 300e6;                          // Pa
-constexpr double kEnergy = 100;                              // J/m²
-constexpr double kCritical = 2 * kEnergy / kStrength;        // m
 constexpr double kStiffness = kStrength / kCritical;         // Pa/m, of the envelope
 constexpr double kCompliances[] = {0, .01, .3, .9, .999};    // of 1/kStiffness
 constexpr double kLargest[] = {0, 1e-9, .1, .5, .99, 1, 2};  // of kCritical

@@ -174,18 +174,12 @@ Spall strike(double size, double flyer, double relative, double share = 0) {
   Spall spall;
   while (world.time < 1.5 * kPlate / c + 2 * flyer / c) {
     world.step(dt);
-    const CrackEdges& edges = world.fracture.edges;
     if (spall.firstTime >= 0 || world.fracture.numCracks() == 0) continue;
     spall.firstTime = world.time;
-    double sum = 0, count = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (edges.cracked[i] == 0) continue;
-      const Side side = edges.side(EdgeId(i), 0);
-      sum += world.model.nodes.reference[firstNode(world.model, side).value].x / 2 +
-             world.model.nodes.reference[lastNode(world.model, side).value].x / 2;
-      ++count;
-    }
-    spall.firstCrack = kPlate - sum / count;
+    const auto cracks = cracksOf(world);
+    double sum = 0;
+    for (const CrackLine& crack : cracks) sum += crack.middle().x;
+    spall.firstCrack = kPlate - sum / static_cast<double>(cracks.size());
   }
   spall.cracks = world.fracture.numCracks();
   spall.energyError = totalEnergy(world) / energy - 1;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/sentence.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -46,16 +47,13 @@ inline std::vector<NodeId> nodesAtHeight(const World& world, double y) {
   return nodesWhere(world.model.nodes, [y](Vec2 x) { return std::abs(x.y - y) < 1e-9; });
 }
 
-/// (m) Of the first edge that has cracked, its middle.
-inline Vec2 firstCrack(const World& world) {
-  const CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.cracked[i] == 0) continue;
-    const Side side = edges.side(EdgeId(i), 0);
-    return .5 * (world.model.nodes.reference[firstNode(world.model, side).value] +
-                 world.model.nodes.reference[lastNode(world.model, side).value]);
-  }
-  return {NAN, NAN};
+/// What a refused body is said to be; the world stays empty.
+inline void expectRefused(const TriangleMesh& mesh, const BodySpec& spec, const char* part) {
+  World world;
+  const std::string text = refusalOf([&] { world.addBody(mesh, spec); });
+  EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  EXPECT_EQ(world.model.nodes.size(), 0);
+  EXPECT_EQ(world.fracture.edges.size(), 0);
 }
 
 }  // namespace yadefrag::test

@@ -10,7 +10,7 @@
 
 #include "core/same_bits.hpp"
 #include "fracture/brittle_checks.hpp"
-#include "fracture/refused_body.hpp"
+#include "fracture/laboratory.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -64,14 +64,9 @@ BodySpec weakBar(const TriangleMesh& mesh) {
 }
 
 double farthestCrack(const World& world) {
-  const CrackEdges& edges = world.fracture.edges;
   double farthest = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.cracked[i] == 0) continue;
-    const Side side = edges.side(EdgeId(i), 0);
-    for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
-      farthest = std::max(farthest, fromSection(world.model.nodes.reference[node.value]));
-  }
+  for (const CrackLine& crack : cracksOf(world))
+    farthest = std::max({farthest, fromSection(crack.first), fromSection(crack.last)});
   return farthest;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // Bodies for the tests of whole steps.
 
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 #include "mesh/shapes.hpp"
 #include "meshing/structured.hpp"
@@ -62,6 +64,30 @@ inline double mass(const World& world, ComponentId component) {
   for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
     if (world.model.nodes.component[i] == component) sum += world.model.nodes.mass[i];
   return sum;
+}
+
+/// A crack as a line of the stress-free shape.
+struct CrackLine {
+  EdgeId edge;
+  Vec2 first, last;  // m
+  [[nodiscard]] Vec2 middle() const { return .5 * (first + last); }
+};
+
+/// `open`: only those that hold nothing any more.
+inline std::vector<CrackLine> cracksOf(const World& world, bool open = false) {
+  const CrackEdges& edges = world.fracture.edges;
+  const auto& holding = world.fracture.cohesion.edge;
+  const std::vector<Vec2>& at = world.model.nodes.reference;
+  std::vector<CrackLine> cracks;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const EdgeId edge(i);
+    if (edges.cracked[i] == 0) continue;
+    if (open && std::ranges::find(holding, edge) != holding.end()) continue;
+    const Side side = edges.side(edge, 0);
+    cracks.push_back(
+        {edge, at[firstNode(world.model, side).value], at[lastNode(world.model, side).value]});
+  }
+  return cracks;
 }
 
 /// Step 7 at .5 s, of .1 s, without penetration; the shortest segment 1 m, the halo .5 m.

@@ -136,6 +136,24 @@ std::map<std::string, Scene> scenes() {
     world.dynamicsSettings.gravity = {0, -9.81};
     world.dynamicsSettings.viscosity = {.06, 1.2};
     world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {10, 20}));
+    const std::vector<NodeId>& rim = world.surfaces.segmentNode;
+    world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {1e3, 2e3}));
+    world.setAbsorbing(std::span(rim).last(3));
+    return world;
+  };
+  // Squares and smooth discs of different meshes that close in on one another.
+  all["crowd"] = [] {
+    World world;
+    for (int k = 0; k < 9; ++k) {
+      const Vec2 place{double(k % 3), double(k / 3)};
+      const bool disc = k % 2 == 0;
+      const TriangleMesh mesh =
+          triangulate({circle(1.02 * place, .5, disc ? 16 : 4, .7 * k), {}}, 1. / (4 + k % 3));
+      BodySpec spec = moving(mesh, rubber(), 6 * (Vec2{1, 1} - place) + Vec2{.1 * k, 0});
+      spec.friction = .3;
+      if (disc) smoothAll(spec, mesh);
+      world.addBody(mesh, spec);
+    }
     return world;
   };
   all["alone"] = [] {

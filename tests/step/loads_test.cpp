@@ -135,25 +135,6 @@ TEST(Absorbing, TheEnergyBalanceHolds) {
               1e-6 * before);
 }
 
-TEST(Loads, ARefusedStepLeavesThemAsTheyWere) {
-  World world = oneBlock();
-  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; });
-  world.setPressure(left, TimeTable(10));
-  world.setAbsorbing(left);
-  const double dt = .5 * world.criticalTimeStep();
-  world.step(dt);
-  const std::vector<Vec2> place = world.model.nodes.position, speed = world.model.nodes.velocity;
-  const double taken = world.ledger.damping, given = world.ledger.external;
-  world.setPressure(left, TimeTable(1e300));
-  for (int k = 0; k < 2; ++k) {
-    EXPECT_THROW(world.step(dt), RunError);
-    EXPECT_EQ(world.model.nodes.position, place);
-    EXPECT_EQ(world.model.nodes.velocity, speed);
-    EXPECT_EQ(world.ledger.damping, taken);
-    EXPECT_EQ(world.ledger.external, given);
-  }
-}
-
 TEST(Loads, WrongOnesAreRefused) {
   World world = oneBlock();
   const NodeId one[] = {NodeId(0)}, none[] = {NodeId(999)};

@@ -10,6 +10,14 @@
 
 namespace yadefrag::test {
 
+/// Slaves and masters that have a row, in order.
+inline std::vector<SlaveMaster> activesOf(const World& world) {
+  std::vector<SlaveMaster> pairs;
+  for (const ContactRow& row : world.contact.rows()) pairs.push_back({row.slave, row.master});
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
 struct RunResult {
   double deepest = 0;       ///< of the shortest segment: a boundary node in another body
   double penetration = 0;   ///< of the shortest segment: what the correction left

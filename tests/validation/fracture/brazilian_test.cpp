@@ -48,19 +48,6 @@ Polygon discOf(double radius, double size) {
   return {circle({}, radius, corners), {}};
 }
 
-void lookAtCrack(const World& world, Split& split) {
-  const CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.cracked[i] == 0) continue;
-    const Side side = edges.side(EdgeId(i), 0);
-    const Vec2 a = world.model.nodes.reference[firstNode(world.model, side).value];
-    const Vec2 b = world.model.nodes.reference[lastNode(world.model, side).value];
-    split.at = (.5 / kRadius) * (a + b);
-    split.turned = std::atan2(std::abs((b - a).x), std::abs((b - a).y));
-    return;
-  }
-}
-
 /// `speed` (m/s) of either plate, `shearFactor` β.
 Split press(double size, double speed, double shearFactor) {
   const ElasticMaterial material{2e9, .25, 2500, false};
@@ -83,7 +70,11 @@ Split press(double size, double speed, double shearFactor) {
   split.load = (down + up) / 2 / (std::numbers::pi * kRadius) / kStrength;
   split.balance = (down - up) / down;
   split.kinetic = world.kineticEnergy() / world.strainEnergy();
-  lookAtCrack(world, split);
+  if (!split.cracked) return split;
+  const CrackLine crack = cracksOf(world).front();
+  const Vec2 along = crack.last - crack.first;
+  split.at = (1 / kRadius) * crack.middle();
+  split.turned = std::atan2(std::abs(along.x), std::abs(along.y));
   return split;
 }
 
@@ -182,7 +173,8 @@ Outcome pressArcs(const Trial& trial, double shearFactor) {
     world.setLoads(loads);
     world.step(dt);
   }
-  outcome.at = (1 / kBetweenJaws) * firstCrack(world);
+  const auto cracks = cracksOf(world);
+  outcome.at = cracks.empty() ? Vec2{NAN, NAN} : (1 / kBetweenJaws) * cracks.front().middle();
   return outcome;
 }
 

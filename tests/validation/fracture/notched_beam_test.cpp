@@ -15,7 +15,6 @@
 
 #include "fracture/laboratory.hpp"
 #include "step/figures.hpp"
-#include "validation/fracture/open_edges.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -198,7 +197,7 @@ Break pull(const Trial& trial) {
     outcome.load = std::max(outcome.load, last);
   }
   Vec2 far{kCut, 0};
-  for (const OpenEdge& edge : openEdges(world))
+  for (const CrackLine& edge : cracksOf(world, true))
     for (const Vec2 end : {edge.first, edge.last})
       if (end.x > far.x) far = end;
   EXPECT_GT(far.x, .85 * kWide) << "it breaks";
