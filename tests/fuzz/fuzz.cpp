@@ -3,6 +3,7 @@
 // mutation would pass, is not required: what is behind it has to stand damage by itself. 0: writes
 // what both begin with, FOLDER/polygon/plate and FOLDER/state/world.
 
+#include <boost/archive/basic_archive.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
