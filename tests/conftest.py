@@ -4,6 +4,7 @@ A test with the argument `collider` runs with LebesgueCollider, or with each cla
 separated), so that another one, also YADE's InsertionSortCollider, can be put through the same tests.
 """
 import os
+import subprocess
 import sys
 import tempfile
 
@@ -77,3 +78,15 @@ def freshScene(request):
 def folder():
     with tempfile.TemporaryDirectory(prefix='yadefrag') as path:
         yield path
+
+
+@pytest.fixture(params=['8k'])
+def small(folder, request):
+    """A disk of 8 KB, or of another size."""
+    disk = folder + '/disk'
+    os.mkdir(disk)
+    if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=' + request.param, 'none', disk],
+                      capture_output=True).returncode:
+        pytest.skip('no disk can be mounted here')
+    yield disk
+    subprocess.run(['umount', disk], check=True)

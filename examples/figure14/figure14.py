@@ -26,7 +26,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, 'tests', 'benchmark'))
 
-import report  # noqa: E402
+import measured_tables  # noqa: E402
 
 SCENES = {'squares': 'squares a side', 'rings': 'rings', 'bars': 'bars'}
 COUNTED = ['SPC', 'SPC-directory', 'LPC', 'HO', 'sweep']
@@ -59,7 +59,7 @@ def main(arguments):
     with tempfile.TemporaryDirectory() as folder:
         rows = runSearches(options, folder)
         runInsideYade(options, folder, rows)
-    machine = report._machine(list(rows.values()))
+    machine = measured_tables.machineOf(list(rows.values()))
     text = markdown(rows, machine, options)
     with open(os.path.join(options.out, 'figure14.json'), 'w') as f:
         json.dump(dict(machine=machine, repeat=options.repeat, rows=list(rows.values())), f,
@@ -137,7 +137,7 @@ def _yade(options, file, segments, collider):
 # --- tables ---------------------------------------------------------------------------------------
 def markdown(rows, machine, options):
     """The whole report."""
-    out = ['# Figure 14', '', report.line(machine) + f'; medians of {options.repeat} runs.', '',
+    out = ['# Figure 14', '', measured_tables.line(machine) + f'; medians of {options.repeat} runs.', '',
            RULES, '']
     for scene in SCENES:
         out += [f'## {scene}', '', f'{EDGES[scene]}; {_settings(rows, scene)}', '']
@@ -232,7 +232,7 @@ def draw(file, rows, machine):
     figure.tight_layout(rect=(0, .06, 1, .94))
     figure.legend(handles.values(), handles.keys(), loc='upper center', ncol=4, frameon=False,
                   bbox_to_anchor=(.5, .967), fontsize=9.5)
-    figure.text(.01, .008, CAPTION + '\n' + report.line(machine), fontsize=8, color='#555555')
+    figure.text(.01, .008, CAPTION + '\n' + measured_tables.line(machine), fontsize=8, color='#555555')
     figure.savefig(file, dpi=100)
     plt.close(figure)
 

@@ -109,7 +109,7 @@ double shortestEdge(const TriangleMesh& mesh) {
   return least;
 }
 
-/// yadefrag/fe/quality.py has checked the component.
+/// yadefrag/fe/results.py has checked the component.
 py::dict meshQualityOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   const Component& body = world.model.components[component];

@@ -15,11 +15,9 @@ facets, but planes.
 Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
 and codes.png to out/bench; with --readme the table goes into docs/data and the pages.
 """
-import argparse
 import json
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
 
@@ -30,7 +28,6 @@ import codes_liggghts
 import codes_report
 import colliders
 import measured_tables
-import report
 
 SCENES = ['gas', 'packing', 'polydisperse', 'stirred', 'hopper']
 ENGINES = {  # collider, loop, integrator
@@ -44,10 +41,9 @@ TOLERANCE = .03
 
 def parse(arguments):
     """The options."""
-    parser = argparse.ArgumentParser(prog='scripts/bench codes', description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = measured_tables.parser('codes', __doc__)
     known = [*ENGINES, *OTHERS]
-    names = lambda of: lambda text: colliders._known(text.split(','), of)  # noqa: E731
+    names = lambda of: lambda text: colliders.knownNames(text.split(','), of)  # noqa: E731
     numbers = lambda text: [int(float(x)) for x in text.split(',')]  # noqa: E731
     parser.add_argument('--scenes', type=names(SCENES), default=SCENES, help='default: all')
     parser.add_argument('--codes', type=names(known), default=known, help=f'default: {",".join(known)}')
@@ -61,9 +57,6 @@ def parse(arguments):
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--add', nargs='*', default=[], metavar='FILE',
                         help='codes.json of runs before, of other sizes or scenes, for the same table')
-    parser.add_argument('--out', default=os.path.join(colliders.ROOT, 'out', 'bench'))
-    parser.add_argument('--yade', default=os.path.join(colliders.ROOT, 'scripts', 'yade'))
-    parser.add_argument('--readme', action='store_true', help='write the table into docs/data and the pages')
     return parser.parse_args(arguments)
 
 
@@ -83,13 +76,7 @@ def ofYade(options, name, scene, n, threads, folder):
     collider, loop, integrator = ENGINES[name]
     settings = dict(scene=scene, n=n, warm=options.warm, steps=options.steps, seed=options.seed, friction=options.friction,
                     collider=collider, loop=loop, integrator=integrator, folder=folder)
-    command = [options.yade, '-n', '-x', f'-j{threads}', os.path.join(colliders.HERE, 'codes_yade.py'),
-               json.dumps(settings)]
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=options.limit,
-                          check=False)
-    row = colliders._lastRow(done.stdout)
-    if not row:
-        raise RuntimeError(f'yade ended with status {done.returncode}: {colliders._lastLine(done.stderr)}')
+    row = measured_tables.measuredBy(options, 'codes_yade.py', json.dumps(settings), threads=threads, limit=options.limit)
     return row, np.load(os.path.join(folder, 'end.npy'))
 
 
@@ -140,7 +127,7 @@ def earlier(file, steps):
         found = json.load(source)
     if found['steps'] != steps:
         sys.exit(f'scripts/bench codes: {file} has the means of {found["steps"]} steps, not of --steps {steps}.')
-    if found['machine']['commit'] != report.origin.commit():
+    if found['machine']['commit'] != measured_tables.origin.commit():
         sys.exit(f'scripts/bench codes: {file} is of commit {found["machine"]["commit"]}.')
     return found['rows']
 
@@ -166,18 +153,17 @@ def main(arguments):
     former = [row for file in options.add for row in earlier(file, options.steps)]
     if not options.codes or options.codes[0] not in ENGINES:
         sys.exit('scripts/bench codes: the first of --codes must be one of ' + ', '.join(ENGINES) + '.')
-    total = len(options.sizes) * len(options.scenes) * len(options.threads) * options.repeat * len(options.codes)
-    rows = former + measured(options, colliders.makeProgress(total))
-    machine = report.machineOf(rows)
+    rows = former + measured(options, colliders.makeProgress())
+    machine = measured_tables.machineOf(rows)
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'codes.json'), 'w') as out:
         json.dump(dict(machine=machine, steps=options.steps, friction=options.friction, rows=rows), out, indent=1)
     found = summary(rows)
     runs = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
-    about = (f'{report.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {runs}, '
+    about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {runs}, '
              f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
     measured_tables.publish(options, 'codes', codes_report.rows(found), about)
-    codes_report.plot(os.path.join(options.out, 'codes.png'), found, report.line(machine, 'one used'))
+    codes_report.plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))
 
 
 if __name__ == '__main__':

@@ -10,71 +10,53 @@ The rows:
                             best three once more, the best of these measured in full
     LebesgueCollider, LinearCodeCollider, HierarchyCollider   at their defaults
 
-Writes colliders.json (raw), colliders.md (tables) and colliders*.png to out/bench.
+Writes colliders.json (raw) and colliders.md (table) to out/bench. `×` is how many times faster than YADE's
+collider at its defaults; `step` is collider + interaction loop + integrator. An asterisk: too few activations in the
+measured steps, so the collider was called by hand.
 """
 import argparse
 import json
 import os
-import signal
+import statistics
 import subprocess
 import sys
 import time
 
-import report
+import measured_tables
+from measured_tables import digits
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
 RIVAL = 'InsertionSortCollider'
 OURS = ['LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider']
 ROWS = [RIVAL, 'tuned'] + OURS
 SCENES = ['gas', 'gas4', 'packing', 'polydisperse', 'polydisperse4', 'polydisperse50', 'clusters',
           'plane', 'projectile', 'insertion', 'exchange', 'rest']
+TIMES = ('first', 'perActivation', 'sumPerStep')
 FINALISTS = 3
 # Multiples of the smallest radius (YADE takes a negative verletDist so) and steps between bounds.
 GRID = [dict(verletDist=-v, targetInterv=t) for v in (.05, .1, .2, .5, 1.) for t in (0, 10, 50)]
 
 
+# --- measurements ---------------------------------------------------------------------------------
 class Runner:
     """Runs measure.py, each time in a fresh yade process, and keeps all rows."""
 
     def __init__(self, options):
         self.options, self.rows = options, []
 
-    def measure(self, collider, scene, n, budget, threads=1, **settings):
+    def measure(self, collider, scene, n, budget, **settings):
         """One measurement; returns its row, with the key `error` if there is none."""
-        o = self.options
-        arguments = dict(scene=scene, n=n, seed=o.seed, collider=collider, budget=budget,
-                         **settings)
-        command = [o.yade, '-n', '-x', f'-j{threads}', os.path.join(HERE, 'measure.py')]
-        command += [f'{k}={v}' for k, v in arguments.items()]
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   stdin=subprocess.DEVNULL, text=True, start_new_session=True)
+        arguments = dict(scene=scene, n=n, seed=self.options.seed, collider=collider, budget=budget, **settings)
         try:
-            output, messages = process.communicate(timeout=o.limit)
+            return measured_tables.measuredBy(self.options, 'measure.py', *(f'{k}={v}' for k, v in arguments.items()),
+                                              limit=self.options.limit)
         except subprocess.TimeoutExpired:
-            return dict(error=f'no result within {o.limit:g} s', timedOut=True)
-        finally:
-            if process.poll() is None:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
-        return _lastRow(output) or dict(
-            error=f'yade ended with status {process.returncode}: {_lastLine(messages)}')
+            return dict(error=f'no result within {self.options.limit:g} s')
+        except RuntimeError as error:
+            return dict(error=str(error))
 
     def keep(self, row, **keys):
         """Store a row under its keys (scene, n, label, repeat)."""
         self.rows.append({**row, **keys})
-
-
-def _lastRow(output):
-    for line in reversed(output.splitlines()):
-        if line.startswith('{'):
-            return json.loads(line)
-    return None
-
-
-def _lastLine(text):
-    lines = [line for line in text.splitlines() if line.strip()]
-    return lines[-1] if lines else 'no message'
 
 
 def tune(runner, scene, n, progress):
@@ -113,7 +95,7 @@ def compare(runner, scene, n, progress, grids):
             if label in failed:
                 continue
             if label == 'tuned' and repeat == 0:
-                settings = _tunedSettings(runner, scene, n, progress, grids, failed)
+                settings = tunedSettings(runner, scene, n, progress, grids, failed)
             tuned = label == 'tuned'
             if tuned and settings is None:
                 row = dict(error='not tuned: the default collider gave no result here')
@@ -125,7 +107,7 @@ def compare(runner, scene, n, progress, grids):
             runner.keep(row, scene=scene, n=n, label=label, repeat=repeat)
 
 
-def _tunedSettings(runner, scene, n, progress, grids, failed):
+def tunedSettings(runner, scene, n, progress, grids, failed):
     """Settings for the tuned rival, or None where the default one has failed already."""
     if RIVAL in failed:
         progress(f'{scene} {n}: tuning', len(GRID) + FINALISTS)
@@ -135,19 +117,8 @@ def _tunedSettings(runner, scene, n, progress, grids, failed):
     return settings
 
 
-def makeProgress(total):
-    """A function (text, steps=1) that shows the progress, on a terminal or in plain lines."""
-    if sys.stderr.isatty():
-        try:
-            from tqdm import tqdm
-            bar = tqdm(total=total, unit='run', dynamic_ncols=True)
-
-            def show(text, steps=1):
-                bar.set_description(text)
-                bar.update(steps)
-            return show
-        except ImportError:
-            pass
+def makeProgress():
+    """A function (text, steps=1) that prints each new scene."""
     last = [None]
 
     def say(text, steps=1):
@@ -158,11 +129,100 @@ def makeProgress(total):
     return say
 
 
-def _parse(arguments):
-    parser = argparse.ArgumentParser(
-        prog='scripts/bench colliders', formatter_class=argparse.RawDescriptionHelpFormatter,
-        description=__doc__)
-    names = lambda known: lambda text: _known(text.split(','), known)  # noqa: E731
+# --- tables ---------------------------------------------------------------------------------------
+def summarise(rows):
+    """{(scene, n, label): dict of medians, ratios `x...` to default and `t...` to tuned, error}."""
+    groups = {}
+    for row in rows:
+        groups.setdefault((row['scene'], row['n'], row['label']), {})[row['repeat']] = row
+    summary = {}
+    for (scene, n, label), repeats in groups.items():
+        good = {k: r for k, r in repeats.items() if 'error' not in r}
+        if not good:
+            summary[scene, n, label] = dict(error=next(iter(repeats.values()))['error'])
+            continue
+        keys = [k for k, v in next(iter(good.values())).items() if isinstance(v, (int, float))]
+        entry = {k: statistics.median(r[k] for r in good.values()) for k in keys}
+        for prefix, rival in (('x', RIVAL), ('t', 'tuned')):
+            others = groups.get((scene, n, rival), {})
+            for key in TIMES:
+                pairs = [others[k][key] / r[key] for k, r in good.items()
+                         if k in others and 'error' not in others[k]]
+                entry[prefix + key] = statistics.median(pairs) if pairs else None
+        summary[scene, n, label] = entry
+    return summary
+
+
+def allRows(summary):
+    """A row for each scene, size and collider."""
+    rows = []
+    for (scene, n, label), entry in summary.items():
+        row = {'scene': scene, 'bodies': str(n), 'collider': label}
+        if 'error' in entry:
+            rows.append({**row, 'first, ms': entry['error'].replace('|', '/')})
+            continue
+        ms = lambda key: digits(1e3 * entry[key])  # noqa: E731
+        times = lambda key: digits(entry[key]) if entry.get(key) else ''  # noqa: E731
+        rows.append({**row, 'first, ms': ms('first'), '×': times('xfirst'),
+                     'later, ms': ms('perActivation') + '*' * bool(entry['activationsForced']),
+                     '× later': times('xperActivation'), 'collider/step, ms': ms('colliderPerStep'),
+                     'loop/step, ms': ms('loopPerStep'), 'integrator/step, ms': ms('integratorPerStep'),
+                     'step, ms': ms('sumPerStep'), '× step': times('xsumPerStep'), '× tuned': times('tsumPerStep'),
+                     'activations/steps': f"{entry['activations']:g}/{entry['steps']:g}",
+                     'potential': f"{entry['potential']:.0f}", 'real': f"{entry['real']:.0f}",
+                     'peak, MB': f"{entry['peakMemory'] / 2 ** 20:.0f}"})
+    head = dict.fromkeys(key for row in rows for key in row)
+    return [{key: row.get(key, '') for key in head} for row in rows]
+
+
+def inShort(summary, n):
+    """Searches and steps of a size, ms: YADE's collider, tuned, and ours."""
+    rows = []
+    for scene in dict.fromkeys(key[0] for key in summary if key[1] == n):
+        theirs, tuned, ours = (summary.get((scene, n, label), {}) for label in (RIVAL, 'tuned', 'LebesgueCollider'))
+        if 'sumPerStep' in theirs and 'sumPerStep' in ours:
+            ms = lambda row, key: digits(1e3 * row[key]) if key in row else ''  # noqa: E731
+            rows.append({'scene': scene, 'first YADE': ms(theirs, 'first'), 'first': ms(ours, 'first'),
+                         'later YADE': ms(theirs, 'perActivation'), 'later': ms(ours, 'perActivation'),
+                         'step YADE': ms(theirs, 'sumPerStep'), 'step tuned': ms(tuned, 'sumPerStep'),
+                         'step': ms(ours, 'sumPerStep')})
+    return rows
+
+
+def remarks(summary, grids):
+    """Sentences: what was tuned, and scenes whose real contacts after the first step depend on the collider."""
+    best = [f"{g['scene']} {g['n']}: {g['best']['verletDist']:g}, {g['best']['targetInterv']}" for g in grids if g['best']]
+    lines = ['Tuned (`verletDist`, in smallest radii, and `targetInterv`): ' + '; '.join(best) + '.'] if best else []
+    for scene, n in dict.fromkeys(key[:2] for key in summary):
+        counts = {k[2]: int(v['realAfterFirst']) for k, v in summary.items() if k[:2] == (scene, n) and 'error' not in v}
+        if len(set(counts.values())) > 1:
+            lines.append(f'**Contacts differ after the first step of {scene}, {n} bodies: {counts}.**')
+    return lines
+
+
+def write(options, rows, grids):
+    """Write colliders.json and colliders.md, and the page's table if requested."""
+    machine, summary = measured_tables.machineOf(rows), summarise(rows)
+    os.makedirs(options.out, exist_ok=True)
+    with open(os.path.join(options.out, 'colliders.json'), 'w') as file:
+        json.dump(dict(machine=machine, repeat=options.repeat, seed=options.seed, budget=options.budget, rows=rows,
+                       grids=grids), file, indent=1)
+    about = f'{measured_tables.line(machine)}, medians of {options.repeat} runs, one process each, one thread'
+    text = '\n\n'.join([measured_tables.markdown(allRows(summary), about), *remarks(summary, grids)])
+    with open(os.path.join(options.out, 'colliders.md'), 'w') as file:
+        file.write(text + '\n')
+    print(text)
+    if options.readme:
+        n = max(key[1] for key in summary)
+        measured_tables.write('colliders', f'{n:,} bodies, {measured_tables.line(machine)}, `scripts/bench colliders`; ms',
+                              inShort(summary, n))
+
+
+# --- command --------------------------------------------------------------------------------------
+def parse(arguments):
+    """The options."""
+    parser = measured_tables.parser('colliders', __doc__)
+    names = lambda known: lambda text: knownNames(text.split(','), known)  # noqa: E731
     parser.add_argument('--scenes', type=names(SCENES), default=SCENES, help='default: all')
     parser.add_argument('--sizes', type=lambda t: [int(float(x)) for x in t.split(',')],
                         default=[1000, 10000, 100000], help='default: 1000,10000,100000')
@@ -174,19 +234,15 @@ def _parse(arguments):
     parser.add_argument('--limit', type=float, default=180., help='s per process; default: 180')
     parser.add_argument('--quick', action='store_true',
                         help='sizes 1000 and 10000, one repeat, 2 s of measured steps')
-    parser.add_argument('--readme', action='store_true',
-                        help='write the table of the largest size into docs/data and the pages')
     parser.add_argument('--seed', type=int, default=1)
-    parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
-    parser.add_argument('--yade', default=os.path.join(ROOT, 'scripts', 'yade'),
-                        help='command to measure with; default: scripts/yade')
     options = parser.parse_args(arguments)
     if options.quick:
         options.sizes, options.repeat, options.budget = [1000, 10000], 1, 2.
     return options
 
 
-def _known(names, known):
+def knownNames(names, known):
+    """The names, if all are known."""
     unknown = [name for name in names if name not in known]
     if unknown:
         raise argparse.ArgumentTypeError(f'{unknown[0]} is not one of {", ".join(known)}')
@@ -195,21 +251,17 @@ def _known(names, known):
 
 def main(arguments):
     """Measure according to the arguments; report the results so far if interrupted."""
-    options = _parse(arguments)
-    runner, grids = Runner(options), []
-    places = [(scene, n) for n in options.sizes for scene in options.scenes]
-    rows = [rowsOf(options, scene) for scene, _ in places]
-    runs = sum(options.repeat * len(labels) + (len(GRID) + FINALISTS) * ('tuned' in labels) for labels in rows)
-    progress = makeProgress(runs)
-    status = 0
+    options = parse(arguments)
+    runner, grids, progress, status = Runner(options), [], makeProgress(), 0
     try:
-        for scene, n in places:
-            compare(runner, scene, n, progress, grids)
+        for n in options.sizes:
+            for scene in options.scenes:
+                compare(runner, scene, n, progress, grids)
     except KeyboardInterrupt:
         print('\ninterrupted: the report holds what was measured so far', file=sys.stderr)
         status = 130
     if runner.rows:
-        report.write(options.out, runner.rows, grids, options)
+        write(options, runner.rows, grids)
     return status
 
 

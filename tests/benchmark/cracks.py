@@ -13,10 +13,8 @@ import sys
 
 import numpy
 
-HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path[:0] = [HERE, os.path.join(HERE, '..', '..', 'examples')]
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import measured_tables  # noqa: E402
-import origin  # noqa: E402
 from yade import O  # noqa: E402
 from yadefrag import BrittleFEMat, FESolver, crackTable, engines, rectangle  # noqa: E402
 
@@ -126,7 +124,7 @@ def main(arguments):
         for zone in zones:
             found = [of(zone, seed) for seed in SEEDS]
             rows.append({'scene': name, 'zone over body': f'{zone:g}', 'wanted': '1', 'measured': f'{min(found):.2f} to {max(found):.2f}'})
-    measured_tables.publish(options, 'cracks', rows, f'{origin.line()}, `scripts/bench cracks`')
+    measured_tables.publish(options, 'cracks', rows, f'{measured_tables.origin.line()}, `scripts/bench cracks`')
 
 
 if __name__ == '__main__':

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "mesh/shapes.hpp"
 #include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/world.hpp"
@@ -29,14 +30,10 @@ inline Vec2 someDirection(std::mt19937_64& random) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-inline std::vector<Vec2> circle(Vec2 centre, double radius, double size) {
-  const int count = static_cast<int>(std::lround(2 * std::numbers::pi * radius / size));
-  std::vector<Vec2> points;
-  for (int k = 0; k < count; ++k) {
-    const double a = 2 * std::numbers::pi * k / count;
-    points.push_back(centre + radius * Vec2{std::cos(a), std::sin(a)});
-  }
-  return points;
+/// With edges of about this size.
+inline test::Loop circle(Vec2 centre, double radius, double size) {
+  return test::circle(centre, radius,
+                      static_cast<int>(std::lround(2 * std::numbers::pi * radius / size)));
 }
 
 /// Fig. 12: concentric rings, 1 mm thick, 0.1 mm apart, two and a half triangles thick; each starts

@@ -10,12 +10,10 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / 'examples'))
-import origin  # noqa: E402
+import measured_tables
+import validation_table
 
-import measured_tables  # noqa: E402
-import validation_table  # noqa: E402
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def suites():
@@ -34,7 +32,7 @@ def recorded(file):
 
 
 def main(*programs):
-    where = origin.line()
+    where = measured_tables.origin.line()
     patterns = ':'.join(f'{name}.*:*/{name}.*' for name in suites())
     rows = []
     with tempfile.TemporaryDirectory() as folder:

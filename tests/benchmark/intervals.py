@@ -14,7 +14,6 @@ import sys
 
 import colliders
 import measured_tables
-import report
 
 STEPS = (3, 5, 10, 20, 40, 80)
 SCENES = ['gas025', 'gas', 'gas4', 'polydisperse025', 'polydisperse', 'polydisperse4', 'packing',
@@ -64,7 +63,7 @@ def main(arguments):
     parser.add_argument('--seed', type=int, default=1)
     options = parser.parse_args(arguments)
     found = measure(options)
-    about = f'{options.n:,} bodies, ms per step relative to the integrator of the same run, {report.origin.line()}, `scripts/bench intervals`'
+    about = f'{options.n:,} bodies, ms per step relative to the integrator of the same run, {measured_tables.origin.line()}, `scripts/bench intervals`'
     measured_tables.publish(options, 'intervals', table(found), about)
     with open(os.path.join(options.out, 'intervals.json'), 'w') as file:
         json.dump(found, file, indent=1)

@@ -6,8 +6,6 @@
 budget   seconds for the measured steps (the scene and the first activation are not included)
 steps    at most so many measured steps (0: by the number of bodies, see `_stepLimit`)
 warm     steps before these, for a collider that adapts (0: at most 60, see `_warmUp`)
-loop     class of the interaction loop (InteractionLoop, CurveLoop)
-integrator  class of the integrator (NewtonIntegrator, CurveIntegrator)
 other    attributes of the collider
 
 Small scenes are built and measured again, up to five times within the budget, and the medians kept
@@ -30,7 +28,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import yade.wrapper  # noqa: E402
 from yade import O, config  # noqa: E402
-from yade.wrapper import ForceResetter  # noqa: E402
+from yade.wrapper import ForceResetter, InteractionLoop, NewtonIntegrator  # noqa: E402
 
 import scenes  # noqa: E402
 
@@ -44,12 +42,11 @@ def main(arguments):
     try:
         for argument in arguments:
             key, _, value = argument.partition('=')
-            settings[key] = value if key in ('scene', 'collider', 'loop', 'integrator') else json.loads(_number(value))
+            settings[key] = value if key in ('scene', 'collider') else json.loads(_number(value))
         row = measure(settings.pop('scene', 'gas'), settings.pop('n', 1000),
                       settings.pop('seed', 1), settings.pop('collider', 'InsertionSortCollider'),
                       settings.pop('budget', 10), (settings.pop('steps', 0), settings.pop('warm', 0)),
-                      settings, settings.pop('loop', 'InteractionLoop'),
-                      settings.pop('integrator', 'NewtonIntegrator'))
+                      settings)
     except LookupError as error:
         row = dict(error=str(error))
     except Exception as error:  # the caller needs one line of JSON in any case
@@ -57,21 +54,18 @@ def main(arguments):
     print(json.dumps(row), flush=True)
 
 
-def measure(scene, n, seed, collider, budget, lengths, settings, loop='InteractionLoop',
-            integrator='NewtonIntegrator'):
+def measure(scene, n, seed, collider, budget, lengths, settings):
     """Measure, with `lengths` = (measured steps, steps before); returns the dict that is printed.
 
     Raises LookupError for an unknown engine.
     """
     makeCollider = _findEngine(collider)
-    makers = _findEngine(loop), _findEngine(integrator)
     row = dict(scene=scene, n=n, seed=seed, collider=collider, settings=settings,
                yade=config.version)
     end, rounds = time.perf_counter() + budget, []
     while len(rounds) < MOST_ROUNDS:
         start = time.perf_counter()
-        rounds.append(_round(scene, n, seed, lambda b: makeCollider(b, **settings), makers, budget,
-                             lengths))
+        rounds.append(_round(scene, n, seed, lambda b: makeCollider(b, **settings), budget, lengths))
         now = time.perf_counter()
         if now + (now - start) > end:
             break
@@ -79,14 +73,13 @@ def measure(scene, n, seed, collider, budget, lengths, settings, loop='Interacti
     return dict(row, rounds=len(rounds), **medians, peakMemory=_peakMemory())
 
 
-def _round(scene, n, seed, makeCollider, makers, budget, lengths):
+def _round(scene, n, seed, makeCollider, budget, lengths):
     """Build the scene and measure it once; returns a dict of numbers."""
-    makeLoop, makeIntegrator = makers
     start = time.perf_counter()
     parts = scenes.build(scene, n, seed)
     engines = [ForceResetter(), makeCollider(parts['bound']),
-               makeLoop(parts['geom'], parts['phys'], parts['law']),
-               makeIntegrator(**parts['newton'])]
+               InteractionLoop(parts['geom'], parts['phys'], parts['law']),
+               NewtonIntegrator(**parts['newton'])]
     O.engines = engines
     O.timingEnabled = True
     row = dict(build=time.perf_counter() - start, memoryBuilt=_peakMemory())

@@ -9,10 +9,16 @@ FIGURES below make their text. tests/docs_test.py compares the pages with it.
 import argparse
 import csv
 import functools
+import json
 import pathlib
 import re
+import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / 'examples'))
+import origin  # noqa: E402
+
 DATA = ROOT / 'docs' / 'data'
 TABLE = re.compile(r'(<!-- table: (.*?) -->\n).*?(<!-- end of table -->)', re.S)
 FIGURE = re.compile(r'(<!-- figure: (.*?) -->)[^<]*(<!-- end -->)')
@@ -79,6 +85,29 @@ def publish(options, name, rows, about):
     print(text)
     if options.readme:
         write(name, about, rows)
+
+
+# --- measurements -----------------------------------------------------------------------------------
+def measuredBy(options, script, *arguments, threads=1, limit=None):
+    """The line of JSON that a script of this folder prints in a yade of its own; RuntimeError without one."""
+    command = [options.yade, '-n', '-x', f'-j{threads}', str(pathlib.Path(__file__).with_name(script)), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=limit, check=False)
+    rows = [line for line in done.stdout.splitlines() if line[:1] in ('{', '[')]
+    if not rows:
+        said = [line for line in done.stderr.splitlines() if line.strip()] or ['no message']
+        raise RuntimeError(f'yade ended with status {done.returncode}: {said[-1]}')
+    return json.loads(rows[-1])
+
+
+def machineOf(rows):
+    """Machine, date, versions."""
+    return dict(machine=origin.machine(), date=origin.date(), commit=origin.commit(),
+                yade=next((row['yade'] for row in rows if 'yade' in row), 'unknown'))
+
+
+def line(machine, used='one used'):
+    """The machine in one line."""
+    return f"{machine['machine']} ({used}), {machine['date']}, YADE {machine['yade']}, commit {machine['commit']}"
 
 
 # --- tables ---------------------------------------------------------------------------------------

@@ -7,12 +7,12 @@ returns a dict:
     newton                   keyword arguments for NewtonIntegrator
     dt                       time step, s
     perStep                  None, or a function of the step number, called before each step
-    about                    dict of numbers that describe the scene
 
 SI units. The smallest sphere has the radius RADIUS. Lattices are turned at random, so that neither
 a sweep along the axes nor a grid meets rows of equal coordinates by chance, and bodies are appended
 in random order (a collider gets no ready-made neighbourhoods in memory).
 """
+import functools
 import math
 
 import numpy as np
@@ -36,17 +36,7 @@ def gas(n, seed, speed=SPEED):
     spacing = 2.15 * RADIUS
     positions = _lattice(rng, n, spacing, _occupancy(.1, spacing, 1))
     _addSpheres(rng, positions, np.full(n, RADIUS), rng.normal(0, speed, (n, 3)), _material(1e7))
-    return _parts(1e7, damping=0, fraction=.1)
-
-
-def gas4(n, seed):
-    """`gas` at four times the speed."""
-    return gas(n, seed, 4 * SPEED)
-
-
-def gas025(n, seed):
-    """`gas` at a quarter of the speed."""
-    return gas(n, seed, .25 * SPEED)
+    return _parts(1e7, damping=0)
 
 
 def packing(n, seed):
@@ -63,7 +53,7 @@ def packing(n, seed):
     velocities[skin] = 0
     _addSpheres(rng, positions, np.full(n, RADIUS), velocities, _material(1e7),
                 np.where(skin, 'xyzXYZ', ''))
-    return _parts(1e7, damping=.2, fraction=.6)
+    return _parts(1e7, damping=.2)
 
 
 def polydisperse(n, seed, ratio=20., speed=SPEED):
@@ -75,25 +65,9 @@ def polydisperse(n, seed, ratio=20., speed=SPEED):
     diameters wide, and the volume fraction less.)
     """
     rng = np.random.default_rng(seed)
-    positions, radii, edge = _sizeClasses(rng, n, ratio, .25)
-    fraction = 4 / 3 * math.pi * (radii ** 3).sum() / edge ** 3
+    positions, radii = _sizeClasses(rng, n, ratio, .25)
     _addSpheres(rng, positions, radii, rng.normal(0, speed, (n, 3)), _material(1e7))
-    return _parts(1e7, damping=0, fraction=round(fraction, 3), ratio=ratio)
-
-
-def polydisperse4(n, seed):
-    """`polydisperse` at four times the speed."""
-    return polydisperse(n, seed, speed=4 * SPEED)
-
-
-def polydisperse025(n, seed):
-    """`polydisperse` at a quarter of the speed."""
-    return polydisperse(n, seed, speed=.25 * SPEED)
-
-
-def polydisperse50(n, seed):
-    """`polydisperse` with radii 1:50."""
-    return polydisperse(n, seed, 50.)
+    return _parts(1e7, damping=0)
 
 
 def clusters(n, seed):
@@ -122,7 +96,7 @@ def clusters(n, seed):
     skins.append(np.zeros(nOut, bool))
     _addSpheres(rng, np.concatenate(positions), np.full(n, RADIUS), np.concatenate(velocities),
                 _material(1e7), np.where(np.concatenate(skins), 'xyzXYZ', ''))
-    return _parts(1e7, damping=0, outliers=nOut)
+    return _parts(1e7, damping=0)
 
 
 def plane(n, seed):
@@ -141,7 +115,7 @@ def plane(n, seed):
     velocities[-1] = [60, 0, 0]
     _addSpheres(rng, np.vstack([positions, start]), radii, velocities, _material(1e9),
                 np.full(n, 'zXY'))
-    return _parts(1e9, damping=.1, speed=60)
+    return _parts(1e9, damping=.1)
 
 
 def projectile(n, seed):
@@ -161,7 +135,7 @@ def projectile(n, seed):
     velocities[:-1][skin] = 0
     _addSpheres(rng, np.vstack([positions, start]), radii, velocities, _material(1e8),
                 np.append(np.where(skin, 'xyzXYZ', ''), ''))
-    return _parts(1e8, damping=.1, speed=30)
+    return _parts(1e8, damping=.1)
 
 
 def insertion(n, seed, perStep=10):
@@ -182,7 +156,7 @@ def insertion(n, seed, perStep=10):
             body = _sphere(next(sites), RADIUS, rng.normal(0, SPEED, 3).tolist(), material)
             O.bodies.append(body)
 
-    parts = _parts(1e7, damping=0, fraction=.1, appendedPerStep=perStep)
+    parts = _parts(1e7, damping=0)
     parts['perStep'] = append
     return parts
 
@@ -216,12 +190,13 @@ def rest(n, seed):
     # Without contact, so that they stay at rest.
     _addSpheres(rng, np.vstack([positions * 1.01, far]), np.full(n, RADIUS), velocities,
                 _material(1e7))
-    return _parts(1e7, damping=0, speed=10 * SPEED)
+    return _parts(1e7, damping=0)
 
 
-SCENES = {f.__name__: f for f in (
-    gas025, gas, gas4, packing, polydisperse025, polydisperse, polydisperse4, polydisperse50, clusters,
-    plane, projectile, insertion, exchange, rest)}
+SCENES = {**{f.__name__: f for f in (gas, packing, polydisperse, clusters, plane, projectile, insertion, exchange, rest)},
+          # At a quarter and four times the speed; radii 1:50.
+          **{f'{f.__name__}{name}': functools.partial(f, speed=part * SPEED) for f in (gas, polydisperse)
+             for name, part in (('025', .25), ('4', 4))}, 'polydisperse50': functools.partial(polydisperse, ratio=50.)}
 
 
 def build(name, n, seed):
@@ -246,11 +221,11 @@ def _material(young):
     return material
 
 
-def _parts(young, damping, **about):
+def _parts(young, damping):
     return dict(bound=[Bo1_Sphere_Aabb()], geom=[Ig2_Sphere_Sphere_ScGeom()],
                 phys=[Ip2_FrictMat_FrictMat_FrictPhys()],
                 law=[Law2_ScGeom_FrictPhys_CundallStrack()], newton=dict(damping=damping),
-                dt=.3 * RADIUS * math.sqrt(DENSITY / young), perStep=None, about=about)
+                dt=.3 * RADIUS * math.sqrt(DENSITY / young), perStep=None)
 
 
 def _sphere(position, radius, velocity, material, blocked=''):
@@ -355,7 +330,7 @@ def _sizeClasses(rng, n, ratio, fraction):
         positions[first:last] = free[rng.permutation(len(free))[:last - first]]
         bounds.append(last)
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    return positions @ turn, radii, edge
+    return positions @ turn, radii
 
 
 def _freeSites(positions, radii, bounds, radius, edge):

@@ -7,18 +7,15 @@ import json
 import os
 import resource
 import statistics
-import subprocess
 import sys
 import time
 
-HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path.insert(0, HERE)
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from yade import O, utils  # noqa: E402
 from yade import wrapper as w  # noqa: E402
 import yadefrag  # noqa: E402,F401
 
 import measured_tables  # noqa: E402
-import report  # noqa: E402
 import scenes  # noqa: E402
 
 # Collider, loop and integrator.
@@ -64,18 +61,11 @@ def milliseconds(n, clumps, engines, steps=3000):
     return 1e3 * (time.process_time() - start) / steps
 
 
-def peak(yade, n, engines):
-    """MB of a process with the packing of scenes.py, after some steps."""
-    done = subprocess.run([yade, '-n', '-x', '-j1', os.path.join(HERE, 'small.py'), 'peak', str(n), engines],
-                          capture_output=True, text=True, check=True)
-    return json.loads(done.stdout.splitlines()[-1])
-
-
 def printPeak(n, engines):
-    """What `peak` reads."""
+    """[MB] of this process with the packing of scenes.py, after some steps."""
     use(scenes.build('packing', n, 1), engines)
     O.run(100, True)
-    print(json.dumps(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024), flush=True)
+    print(json.dumps([resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024]), flush=True)
 
 
 def main(arguments):
@@ -90,10 +80,10 @@ def main(arguments):
         rows.append(dict(zip(('scene', *ENGINES), (
             f'{n} {"clumps of two" if clumps else "spheres"}, ms per step',
             measured_tables.digits(statistics.median(turn[0] for turn in rounds)), *(f'× {one}' for one in ratios)))))
-    both = [peak(options.yade, 27000, engines) for engines in ENGINES]
+    both = [measured_tables.measuredBy(options, 'small.py', 'peak', 27000, engines)[0] for engines in ENGINES]
     rows.append(dict(zip(rows[0], ('packing of 27,000 spheres, MB', *(f'{one:.0f}' for one in both)))))
     measured_tables.publish(options, 'small', rows, f'processor time of a thread, medians of {options.rounds} rounds in turns, and peak memory, '
-                            f'{report.origin.line()}, `scripts/bench small`')
+                            f'{measured_tables.origin.line()}, `scripts/bench small`')
 
 
 if sys.argv[1:2] == ['peak']:

@@ -5,17 +5,12 @@
 NAME is one of TIMES in measured_tables.py. For a true figure: an idle machine, a fresh clone and CCACHE_DISABLE=1.
 R is the processor time of a file that includes Boost.Python, Boost's serialization and Eigen: the unit of processor times.
 """
-import pathlib
 import resource
 import subprocess
 import sys
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / 'examples'))
-import origin  # noqa: E402
-
-import measured_tables  # noqa: E402
+import measured_tables
 
 UNIT = '#include <boost/python.hpp>\n#include <boost/serialization/vector.hpp>\n#include <Eigen/Dense>\n'
 
@@ -42,7 +37,7 @@ def main(name, *command):
     row = {'command': name, 'wall': f'{wall:.0f}', 'processor': f'{processor:.0f}', 'R': f'{processor / unit():.0f}'}
     others = {one['command']: one for one in measured_tables.read('times')[1]}
     rows = [row if other == name else one for other, one in others.items()]
-    measured_tables.write('times', f'{origin.line()}, `tests/benchmark/times.py`', rows)
+    measured_tables.write('times', f'{measured_tables.origin.line()}, `tests/benchmark/times.py`', rows)
 
 
 if __name__ == '__main__':

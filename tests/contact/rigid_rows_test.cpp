@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "contact/row_scenes.hpp"
+#include "contact/contact_scenes.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "contact/row_scenes.hpp"
+#include "contact/contact_scenes.hpp"
 
 namespace yadefrag::test {
 namespace {

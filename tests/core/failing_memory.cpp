@@ -6,12 +6,12 @@
 
 namespace {
 
-thread_local bool counting = false, failed = false;
+thread_local bool counting = false;
 thread_local std::size_t left = 0;
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (counting && left-- == 0) {
-    counting = false, failed = true;
+    counting = false;
     throw std::bad_alloc();
   }
   size = (std::max(size, std::size_t{1}) + alignment - 1) / alignment * alignment;
@@ -41,9 +41,8 @@ namespace yadefrag::test {
 
 FailingMemory::FailingMemory(std::size_t count) {
   left = count;
-  counting = true, failed = false;
+  counting = true;
 }
 FailingMemory::~FailingMemory() { counting = false; }
-bool FailingMemory::hasFailed() { return failed; }
 
 }  // namespace yadefrag::test

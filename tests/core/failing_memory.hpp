@@ -12,7 +12,6 @@ class FailingMemory {
   ~FailingMemory();
   FailingMemory(const FailingMemory&) = delete;
   FailingMemory& operator=(const FailingMemory&) = delete;
-  [[nodiscard]] static bool hasFailed();
 };
 
 }  // namespace yadefrag::test

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/parallel.hpp"
-#include "core/threads_for_few.hpp"
+#include "core/same_bits.hpp"
 
 namespace yadefrag::test {
 namespace {

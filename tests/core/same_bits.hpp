@@ -5,6 +5,8 @@
 #include <cstring>
 #include <ranges>
 
+#include "core/parallel.hpp"
+
 namespace yadefrag::test {
 
 template <std::ranges::contiguous_range Range>
@@ -14,5 +16,14 @@ bool sameBits(const Range& a, const Range& b) {
   // An empty range may have no address, which memcmp does not take.
   return bytes == 0 || std::memcmp(std::ranges::data(a), std::ranges::data(b), bytes) == 0;
 }
+
+/// While it exists, even a few items are distributed to threads.
+class ThreadsForFew {
+ public:
+  explicit ThreadsForFew(std::size_t items = 4) { leastItemsPerThread() = items; }
+  ~ThreadsForFew() { leastItemsPerThread() = tolerance::kMinItemsPerThread; }
+  ThreadsForFew(const ThreadsForFew&) = delete;
+  ThreadsForFew& operator=(const ThreadsForFew&) = delete;
+};
 
 }  // namespace yadefrag::test

@@ -1,13 +1,18 @@
 #pragma once
 // Bodies for the tests of the dynamics.
 
+#include <gtest/gtest.h>
+
 #include <numbers>
 #include <random>
 #include <span>
+#include <utility>
 
+#include "core/same_bits.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"
+#include "mesh/shapes.hpp"
 #include "meshing/structured.hpp"
 
 namespace yadefrag {
@@ -91,6 +96,46 @@ inline Stepper runOf(Model model, double factor, const StepSettings& settings = 
   Stepper run{.model = std::move(model), .dt = dt, .settings = settings};
   run.start();
   return run;
+}
+
+inline bool sameState(const Model& a, const Model& b) {
+  const PlasticState &p = a.triangles.plastic, &q = b.triangles.plastic;
+  return test::sameBits(a.nodes.position, b.nodes.position) &&
+         test::sameBits(a.nodes.velocity, b.nodes.velocity) && p.edges == q.edges &&
+         p.thickness == q.thickness && p.strain == q.strain && p.temperature == q.temperature;
+}
+
+/// Any number of threads, any instruction set, and a solver that is built anew as after loading do
+/// not change the bits of a run of so many steps of `factor` of the critical one. Its end.
+inline Model expectSameBits(const Model& model, double factor, int steps,
+                            const StepSettings& settings = {}) {
+  const double dt = factor * criticalTimeStep(model, settings.viscosity);
+  const auto runWith = [&](int threads, InstructionSet set) {
+    Stepper run{.model = model, .dt = dt, .settings = settings, .threads = threads, .set = set};
+    run.start();
+    run.step(steps / 2);
+    return run;
+  };
+  Stepper one = runWith(1, InstructionSet::kBaseline);
+  Stepper rebuilt{
+      .model = one.model, .dt = dt, .settings = settings, .last = one.last, .ledger = one.ledger};
+  rebuilt.start();
+  one.step(steps / 2);
+  const auto expectAsOne = [&](Stepper& other) {
+    other.step(steps / 2);
+    EXPECT_TRUE(sameState(one.model, other.model));
+    EXPECT_EQ(one.ledger.external, other.ledger.external);
+    EXPECT_EQ(one.ledger.damping, other.ledger.damping);
+  };
+  expectAsOne(rebuilt);
+  for (const auto& [threads, set] :
+       {std::pair{2, InstructionSet::kBaseline}, std::pair{1, bestInstructionSet()},
+        std::pair{3, widestInstructionSet()}}) {
+    SCOPED_TRACE(threads);
+    Stepper other = runWith(threads, set);
+    expectAsOne(other);
+  }
+  return one.model;
 }
 
 }  // namespace yadefrag

@@ -11,9 +11,9 @@
 
 #include "core/same_bits.hpp"
 #include "extremes/limits.hpp"
-#include "extremes/saved_world.hpp"
 #include "fracture/random_cracks.hpp"
 #include "step/bodies.hpp"
+#include "step/eventful_scenes.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {

@@ -38,17 +38,12 @@ struct Outcome {
   }
 };
 
-inline Vec2 turned(Vec2 a, double angle) {
-  return {std::cos(angle) * a.x - std::sin(angle) * a.y,
-          std::sin(angle) * a.x + std::cos(angle) * a.y};
-}
-
 inline void addBlock(World& world, const BlockCollision& collision, Vec2 low, int parts,
                      const ElasticMaterial& material, double speed) {
   TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, parts, parts);
   for (Vec2& node : mesh.nodes)
-    node = collision.shift + turned(collision.size * node, collision.turn);
-  world.addBody(mesh, moving(mesh, material, turned({speed, 0}, collision.turn)));
+    node = collision.shift + turnedBy(collision.size * node, collision.turn);
+  world.addBody(mesh, moving(mesh, material, turnedBy({speed, 0}, collision.turn)));
 }
 
 inline World worldOf(const BlockCollision& collision) {
@@ -130,7 +125,7 @@ inline Outcome collide(const BlockCollision& collision) {
   if (world.model.components.size() < 2) return outcome;
   const ComponentId a(0UL), b(1UL);
   const Vec2 left = momentum(world, a), right = momentum(world, b);
-  const auto back = [&](Vec2 vector) { return turned(vector, -collision.turn); };
+  const auto back = [&](Vec2 vector) { return turnedBy(vector, -collision.turn); };
   const double start = collision.speed * mass(world, a);
   outcome.momentum = norm(back(left + right) - Vec2{start, 0}) / start;
   outcome.left = (1 / start) * back(left);

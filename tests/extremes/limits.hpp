@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
-#include "core/errors.hpp"
+#include "core/sentence.hpp"
 
 namespace yadefrag::test {
 
@@ -22,24 +23,20 @@ void limit(const std::string& name, double smallest, double largest, const std::
 /// True if the long parts are requested (YADEFRAG_LONG).
 bool longRun();
 
-/// Fails the test unless `text` is one a user can read: words, one line, a full stop.
-void expectSentence(const std::string& text);
+/// Two digits: 10⁻⁹, 3.2·10⁵, 0.02, 47; – for NAN, ∞.
+std::string numberText(double value);
 
-/// "" if `call` comes to its end, else the sentence of the InputError or RunError that it throws.
-/// Any other exception, and a message that is no sentence, fails the test.
-template <class Call>
-std::string sentenceOf(Call call) {
-  std::string text;
-  try {
-    call();
-    return text;
-  } catch (const InputError& error) {
-    text = error.what();
-  } catch (const RunError& error) {
-    text = error.what();
-  }
-  expectSentence(text);
-  return text;
-}
+/// The reverse; NAN for what is no number.
+double numberOf(const std::string& text);
+
+struct LimitRow {
+  std::string name, smallest, largest, beyond;
+};
+
+/// The rows between the page's two marks.
+std::vector<LimitRow> readmeLimits();
+
+/// With its line end.
+std::string lineOf(const LimitRow& row);
 
 }  // namespace yadefrag::test

@@ -10,9 +10,6 @@
 #include <iterator>
 #include <set>
 
-#include "extremes/limits_table.hpp"
-#include "extremes/number_text.hpp"
-
 namespace yadefrag::test {
 namespace {
 

@@ -90,7 +90,7 @@ TEST(ExtremeShape, BodiesThatTouchExactly) {
         EXPECT_EQ(result.refusal, "") << turn << " " << far << " " << speed;
         // What a solution may leave at this speed; it is corrected in the next steps.
         EXPECT_LE(result.deepest, speed > 0 ? 3e-5 : 1e-8) << turn << " " << far << " " << speed;
-        const Vec2 left = turned(momentum(world, ComponentId(0UL)), -turn);
+        const Vec2 left = turnedBy(momentum(world, ComponentId(0UL)), -turn);
         if (speed > 0) {
           EXPECT_LT(left.x / mass(world, ComponentId(0UL)), .2) << turn << " " << far;
         } else {

@@ -15,61 +15,6 @@
 namespace yadefrag::test {
 namespace {
 
-// --- strength and energy
-
-struct Pull {
-  double most = 0;       // Pa, of the stress in the middle of the bar
-  double spent = 0;      // of energy times area
-  double excess = 0;     // of the spent energy, in the books
-  std::size_t held = 0;  // bonded sides that are left
-};
-
-/// Two blocks of a bar, pulled apart so slowly that the stress is even.
-Pull pullApart(double strength, double energy, bool canCrack) {
-  const TriangleMesh left = barFrom(0, .04, 4), right = barFrom(.04, .08, 4);
-  World world;
-  for (const TriangleMesh* mesh : {&left, &right}) {
-    BodySpec spec = resting(*mesh);
-    for (std::size_t n = 0; n < mesh->nodes.size(); ++n)
-      spec.velocity[n].x = .05 * (mesh->nodes[n].x - .04) / .04;
-    hold(spec, *mesh, kHeldX, [](Vec2 at) { return at.x < 1e-9 || at.x > .08 - 1e-9; });
-    if (canCrack) {
-      spec.brittle.tensileStrength = 20 * strength;
-      spec.brittle.fractureEnergy = 500 * energy;
-    }
-    world.addBody(*mesh, spec);
-  }
-  EXPECT_EQ(world.bond(kFirst, kSecond, strength, energy), 4U);
-  world.dynamicsSettings.damping = 2e4;
-  const double dt = .5 * world.criticalTimeStep();
-  Pull pull;
-  const double start = totalEnergy(world);
-  while (world.time < 2e-3 && !world.fracture.cohesion.edge.empty()) {
-    world.step(dt);
-    double sum = 0;
-    for (const auto& traction : world.fracture.cohesion.traction)
-      for (const Vec2 one : traction) sum += one.x;
-    pull.most = std::max(pull.most, sum / 8);
-  }
-  const double whole = energy * kHeight;
-  pull.spent = world.ledger.fracture / whole;
-  pull.excess = (totalEnergy(world) - start) / whole;
-  pull.held = world.fracture.cohesion.edge.size();
-  EXPECT_EQ(world.fracture.numCracks(), 0U);
-  return pull;
-}
-
-// The law's bound, and its area to what steps make of it (mode_one_test.cpp).
-TEST(Bonds, ABondedPairFailsAtItsStrengthAndTakesItsEnergy) {
-  for (const bool canCrack : {false, true}) {
-    const Pull pull = pullApart(2e6, 20, canCrack);
-    EXPECT_NEAR(pull.most / 2e6, 1, 1e-6) << canCrack;
-    figure("spent", pull.spent, 1, 1e-3);
-    EXPECT_NEAR(pull.excess, 0, .01);
-    EXPECT_EQ(pull.held, 0U);
-  }
-}
-
 // --- a wave
 
 /// Velocities of the upper row of nodes after the pulse.

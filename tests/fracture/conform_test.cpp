@@ -10,9 +10,9 @@
 
 #include "dynamics/element_state.hpp"
 #include "extremes/limits.hpp"
-#include "extremes/saved_world.hpp"
 #include "fracture/random_cracks.hpp"
 #include "fracture/two_sizes.hpp"
+#include "step/eventful_scenes.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {
@@ -129,10 +129,7 @@ World rubble(std::mt19937& random, bool cracks) {
     const double high = y + draw(.05, .12);
     for (double x = 0; x < 1;) {
       const double end = x + draw(.1, .3);
-      Polygon stone;
-      for (const Vec2 at : {Vec2{x, y}, Vec2{end, y}, Vec2{end, high}, Vec2{x, high}})
-        stone.outline.push_back({at.x * std::cos(angle) - at.y * std::sin(angle),
-                                 at.x * std::sin(angle) + at.y * std::cos(angle)});
+      const Polygon stone{turnedLoop(box({x, y}, {end, high}), angle), {}};
       const PolygonMesh mesh = triangulate(stone, SizeField(draw(.015, .04)));
       BodySpec spec = resting(mesh);
       if (cracks) spec.brittle.tensileStrength = 1e8, spec.brittle.fractureEnergy = 1e5;
@@ -192,15 +189,10 @@ TEST(Conform, CornersAndNodesWithSmallErrorsAreJoinedWithinTheTolerance) {
 }
 
 Polygon ringOf(double radius, int corners, double outer = 0) {
-  Polygon polygon;
-  std::vector<Vec2> circle;
-  circle.reserve(static_cast<std::size_t>(corners));
-  for (int k = 0; k < corners; ++k)
-    circle.push_back(
-        {radius * std::cos(2 * M_PI * k / corners), radius * std::sin(2 * M_PI * k / corners)});
-  if (outer == 0) return {circle, {}};
-  std::reverse(circle.begin(), circle.end());
-  return {{{-outer, -outer}, {outer, -outer}, {outer, outer}, {-outer, outer}}, {circle}};
+  Loop loop = circle({}, radius, corners);
+  if (outer == 0) return {loop, {}};
+  std::reverse(loop.begin(), loop.end());
+  return {box({-outer, -outer}, {outer, outer}), {loop}};
 }
 
 TEST(Conform, ADiscIsBondedIntoAHoleOfOtherSides) {

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "fracture/cohesive_law.hpp"
-#include "fracture/softening_curves.hpp"
 #include "fracture/two_triangles.hpp"
 
 namespace yadefrag::test {
@@ -28,74 +27,29 @@ struct Law {
   [[nodiscard]] double critical() const { return curve.criticalOpening(kStrength, kEnergy); }
 };
 
-/// Two triangles left and right of the edge x = 0, hardly stretched. The edge is as weak until it
-/// has cracked, in the first step, and has its strength from then on.
-class Pair {
- public:
-  explicit Pair(const Law& law) {
-    BodySpec spec;
-    spec.friction = law.friction;
-    spec.brittle.shearFactor = law.beta;
-    spec.brittle.shearEnergyFactor = law.kappa;
-    spec.brittle.softening = law.curve;
-    addTwoTriangles(world, spec, 1.3 * kWeak);
-    world.fracture.edges.strength[0] *= kWeak;
-    world.step(kStep);
-    EXPECT_EQ(world.fracture.numCracks(), 1U);
-    world.fracture.edges.strength[0] /= kWeak;
-    start_ = totalEnergy(world);
-  }
+/// Hardly stretched.
+DrivenPair pairOf(const Law& law) {
+  BodySpec spec;
+  spec.friction = law.friction;
+  spec.brittle.shearFactor = law.beta;
+  spec.brittle.shearEnergyFactor = law.kappa;
+  spec.brittle.softening = law.curve;
+  return {spec, kStep, kWeak};
+}
 
-  /// (m) From the left face to the right one.
-  [[nodiscard]] Vec2 opening(std::size_t end) const { return openingOf(world, end); }
-
-  /// One step in which forces give each half this velocity (m/s; the left one its opposite), and
-  /// press the faces together by `pressure` (Pa).
-  void step(Vec2 speed, double pressure = 0) {
-    Nodes& nodes = world.model.nodes;
-    world.loads.outerForces.assign(nodes.size(), {});
-    Vec2 push;
-    for (std::size_t element = 0; element < 2; ++element) {
-      const double sign = element == 0 ? -1 : 1;
-      const auto& corners = world.model.triangles.nodes[element];
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double share = nodes.mass[corners[i].value] / kStep;
-        Vec2 force = share * (sign * speed - nodes.velocity[corners[i].value]);
-        // Pressed faces keep apart by themselves.
-        if (pressure > 0) force.x = i == (element == 0 ? 2U : 1U) ? 0 : -sign * pressure * kHalf;
-        world.loads.outerForces[corners[i].value] = force;
-        if (element == 0) push += force;
-      }
-    }
-    const Vec2 before = leftMomentum();
-    world.step(kStep);
-    traction = 1 / kArea * (1 / kStep * (leftMomentum() - before) - push);
-    worstEnergy = std::max(worstEnergy, std::abs(totalEnergy(world) - start_));
-  }
-
-  World world;
-  Vec2 traction;           ///< Pa, on the left half, from its momentum
-  double worstEnergy = 0;  ///< J
-
- private:
-  [[nodiscard]] Vec2 leftMomentum() const {
-    Vec2 sum;
-    for (const NodeId node : world.model.triangles.nodes[0])
-      sum += world.model.nodes.mass[node.value] * world.model.nodes.velocity[node.value];
-    return sum;
-  }
-
-  double start_ = 0;
-};
+void step(DrivenPair& pair, Vec2 speed, double pressure = 0) {
+  pair.drive(speed, pressure);
+  pair.step();
+}
 
 // --- fixed ratios of opening and slip
 
 /// (of Gc) What is spent when the faces part in the direction `angle` (rad) from the normal.
 double spentAt(const Law& law, double angle) {
-  Pair pair(law);
+  DrivenPair pair = pairOf(law);
   const Vec2 speed = kSpeed * Vec2{std::cos(angle), std::sin(angle)};
   for (int n = 0; n < 100 * kSteps && !pair.world.fracture.cohesion.edge.empty(); ++n)
-    pair.step(speed);
+    step(pair, speed);
   EXPECT_TRUE(pair.world.fracture.cohesion.edge.empty());
   EXPECT_LT(pair.worstEnergy, 1e-6 * kEnergy * kArea);
   return pair.world.ledger.fracture / (kEnergy * kArea);
@@ -151,14 +105,14 @@ struct Rub {
 };
 
 /// Slips to the wanted values in turn (of δc), pressed by `pressure`.
-Rub rub(Pair& pair, const Law& law, double pressure, std::initializer_list<double> turns) {
+Rub rub(DrivenPair& pair, const Law& law, double pressure, std::initializer_list<double> turns) {
   std::array<double, 2> largest{};
   Rub result;
   for (const double turn : turns) {
     const double sign = turn * kCritical > pair.opening(0).y ? 1 : -1;
     for (int n = 0; n < 100 * kSteps && sign * (turn * kCritical - pair.opening(0).y) > 0; ++n) {
       const std::array<double, 2> begin{pair.opening(0).y, pair.opening(1).y};
-      pair.step({0, sign * kSpeed}, pressure);
+      step(pair, {0, sign * kSpeed}, pressure);
       double wanted = sign * law.friction * pressure;
       for (std::size_t end = 0; end < 2; ++end) {
         wanted += lawfulShear(law, largest[end], pair.opening(end).y) / 2;
@@ -182,7 +136,7 @@ TEST(CrackShear, PressedFacesHaveFrictionBesideCohesion) {
   for (const Law& law : {Law{1, 1, .5}, Law{2, 3, .5}, Law{1, 1, 0}, Law{.5, 1, 2}})
     for (const double part : {.1, 1., 3.}) {
       const double pressure = part * kStrength;
-      Pair pair(law);
+      DrivenPair pair = pairOf(law);
       const double rest = law.kappa / law.beta;  // of δc
       const Rub result = rub(pair, law, pressure, {.98 * rest});
       EXPECT_LT(result.worstShear, 2e-3);
@@ -202,7 +156,7 @@ TEST(CrackShear, PressedFacesHaveFrictionBesideCohesion) {
 TEST(CrackShear, FrictionTurnsWithTheSlip) {
   const Law law{1, 1, .5};
   const double pressure = kStrength;
-  Pair pair(law);
+  DrivenPair pair = pairOf(law);
   const Rub result = rub(pair, law, pressure, {.4, -.3, .6, -.7, .2});
   EXPECT_LT(result.worstShear, 3e-3);
   EXPECT_LT(pair.worstEnergy, 1e-6 * kEnergy * kArea);
@@ -215,11 +169,11 @@ TEST(CrackShear, FrictionTurnsWithTheSlip) {
 TEST(CrackShear, RestsBelowWhatHoldsIt) {
   const Law law{1, 1, .5};
   for (const double slipped : {0., .5}) {
-    Pair pair(law);
+    DrivenPair pair = pairOf(law);
     if (slipped > 0) rub(pair, law, kStrength, {slipped});
-    pair.step({}, kStrength);  // what was kinetic energy is gone
+    step(pair, {}, kStrength);  // what was kinetic energy is gone
     const Vec2 before = pair.opening(0);
-    for (int n = 0; n < 200; ++n) pair.step({}, kStrength);
+    for (int n = 0; n < 200; ++n) step(pair, {}, kStrength);
     EXPECT_NEAR(norm(pair.opening(0) - before), 0, 1e-3 * kCritical) << slipped;
   }
 }

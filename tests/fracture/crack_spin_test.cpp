@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fracture/softening_curves.hpp"
 #include "fracture/two_triangles.hpp"
 #include "step/bodies.hpp"
 
@@ -17,13 +16,7 @@ struct Law {
   const char* curve = "linear";
 };
 
-double spinOf(const World& world) {
-  double sum = 0;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    sum += world.model.nodes.mass[n] *
-           cross(world.model.nodes.position[n], world.model.nodes.velocity[n]);
-  return sum;
-}
+double spinOf(const World& world) { return momentsOf(world.model.nodes).angular; }
 
 /// A free block tears by its velocities, apart and along the line between its halves (m/s).
 struct Torn {

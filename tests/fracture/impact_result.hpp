@@ -43,9 +43,8 @@ inline World impact(const ImpactSetting& setting) {
   world.contactSettings.passes = 2;
   world.contactSettings.constants = setting.constants;
   world.threads = setting.threads;
-  const TriangleMesh block = triangulate(
-      {{{-kWidth / 2, -kHeight}, {kWidth / 2, -kHeight}, {kWidth / 2, 0}, {-kWidth / 2, 0}}, {}},
-      setting.size, {setting.nodes});
+  const TriangleMesh block = triangulate({box({-kWidth / 2, -kHeight}, {kWidth / 2, 0}), {}},
+                                         setting.size, {setting.nodes});
   BodySpec ceramic = moving(block, {370e9, .22, 3900, false}, {0, 0});
   ceramic.brittle.tensileStrength = 300e6;
   ceramic.brittle.fractureEnergy = setting.fractureEnergy;
@@ -53,14 +52,9 @@ inline World impact(const ImpactSetting& setting) {
   ceramic.friction = .3;
   if (setting.held) hold(ceramic, block, kHeldXY, [](Vec2 at) { return at.y < -kHeight + 1e-9; });
   world.addBody(block, ceramic);
-  Polygon circle;
   const int corners = static_cast<int>(2 * std::numbers::pi * kRadius / setting.size);
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / corners;
-    circle.outline.push_back(Vec2{1e-4, 1.001 * kRadius} +
-                             kRadius * Vec2{std::cos(angle), std::sin(angle)});
-  }
-  const TriangleMesh cylinder = triangulate(circle, setting.size);
+  const TriangleMesh cylinder =
+      triangulate({circle({1e-4, 1.001 * kRadius}, kRadius, corners), {}}, setting.size);
   BodySpec metal = moving(cylinder, steel(), {0, -setting.speed});
   metal.friction = .3;
   world.addBody(cylinder, metal);

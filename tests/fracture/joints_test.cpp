@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.hpp"
 #include "core/same_bits.hpp"
-#include "extremes/saved_world.hpp"
-#include "fracture/refused_body.hpp"
+#include "fracture/laboratory.hpp"
 #include "step/bodies.hpp"
+#include "step/eventful_scenes.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {
@@ -25,9 +24,7 @@ std::vector<JointEdge> withStrength(const TriangleMesh& mesh, double strength, d
   return edges;
 }
 
-Polygon rectangle(Vec2 low, Vec2 high) {
-  return {{low, {high.x, low.y}, high, {low.x, high.y}}, {}};
-}
+Polygon rectangle(Vec2 low, Vec2 high) { return {box(low, high), {}}; }
 
 // --- a plate with a crack through its middle, of unit modulus, density and half width
 
@@ -177,14 +174,9 @@ Broken breakBar(double jointStrength, double jointEnergy, double size) {
     if (broken.stress == 0 && world.fracture.numCracks() > 0)
       broken.stress = kBar.young * kRate * world.time;
   }
-  const CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.cracked[i] == 0) continue;
-    const Side side = edges.side(EdgeId(i), 0);
-    for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
-      broken.farthest =
-          std::max(broken.farthest, std::abs(world.model.nodes.reference[node.value].x - kSection));
-  }
+  for (const CrackLine& crack : cracksOf(world))
+    for (const Vec2 end : {crack.first, crack.last})
+      broken.farthest = std::max(broken.farthest, std::abs(end.x - kSection));
   broken.spent = world.ledger.fracture;
   broken.cracks = world.fracture.numCracks();
   return broken;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/sentence.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -27,21 +28,6 @@ inline double mohrCoulomb(const BodySpec& spec, double confining) {
   return (2 * c * std::sqrt(1 - s * s) + confining * (1 + s)) / (1 - s);
 }
 
-inline Vec2 turnedBy(Vec2 p, double angle) {
-  return {std::cos(angle) * p.x - std::sin(angle) * p.y,
-          std::sin(angle) * p.x + std::cos(angle) * p.y};
-}
-
-/// The mesh of the outline that is turned by `angle` (rad), turned back: whatever the mesher
-/// prefers points elsewhere, and the platens stay level.
-inline TriangleMesh turnedMesh(Polygon polygon, const SizeField& size, MeshLayout layout,
-                               double angle) {
-  for (Vec2& p : polygon.outline) p = turnedBy(p, angle);
-  TriangleMesh mesh = triangulate(polygon, size, layout);
-  for (Vec2& p : mesh.nodes) p = turnedBy(p, -angle);
-  return mesh;
-}
-
 /// Which mesh, and how fast.
 struct Trial {
   double size = 0;  ///< m
@@ -52,28 +38,22 @@ struct Trial {
   double crossings = 100;  ///< of the specimen by a wave, in the time that it is loaded
 
   [[nodiscard]] TriangleMesh mesh(Polygon polygon) const {
-    return turnedMesh(std::move(polygon), size, {layout, seed}, turned * std::numbers::pi / 180);
+    return turnedMesh(std::move(polygon), size, turned, {layout, seed});
   }
 };
 
 /// Nodes at the height `y` (m) of the stress-free shape.
 inline std::vector<NodeId> nodesAtHeight(const World& world, double y) {
-  std::vector<NodeId> found;
-  for (std::size_t n = 0; n < world.model.nodes.reference.size(); ++n)
-    if (std::abs(world.model.nodes.reference[n].y - y) < 1e-9) found.emplace_back(n);
-  return found;
+  return nodesWhere(world.model.nodes, [y](Vec2 x) { return std::abs(x.y - y) < 1e-9; });
 }
 
-/// (m) Of the first edge that has cracked, its middle.
-inline Vec2 firstCrack(const World& world) {
-  const CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.cracked[i] == 0) continue;
-    const Side side = edges.side(EdgeId(i), 0);
-    return .5 * (world.model.nodes.reference[firstNode(world.model, side).value] +
-                 world.model.nodes.reference[lastNode(world.model, side).value]);
-  }
-  return {NAN, NAN};
+/// What a refused body is said to be; the world stays empty.
+inline void expectRefused(const TriangleMesh& mesh, const BodySpec& spec, const char* part) {
+  World world;
+  const std::string text = refusalOf([&] { world.addBody(mesh, spec); });
+  EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  EXPECT_EQ(world.model.nodes.size(), 0);
+  EXPECT_EQ(world.fracture.edges.size(), 0);
 }
 
 }  // namespace yadefrag::test

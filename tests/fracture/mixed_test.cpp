@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fracture/refused_body.hpp"
+#include "fracture/laboratory.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -73,11 +73,9 @@ FirstCrack firstCrackOf(const BodySpec& spec) {
   const double dt = .5 * world.criticalTimeStep();
   while (world.fracture.numCracks() == 0 && world.time < .01) world.step(dt);
   FirstCrack first{kRate * world.time, 0};
-  const CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (edges.cracked[i] != 0)
-      for (const ElementId e : edges.element[i])
-        first.materials |= 1U << world.model.triangles.material[e.value];
+  for (const CrackLine& crack : cracksOf(world))
+    for (const ElementId e : world.fracture.edges.element[crack.edge.value])
+      first.materials |= 1U << world.model.triangles.material[e.value];
   return first;
 }
 
@@ -142,13 +140,7 @@ void checkInterface(std::vector<BodyMaterial> materials) {
     world.step(dt);
   }
   EXPECT_EQ(world.fracture.numCracks(), 8U);
-  const CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.cracked[i] == 0) continue;
-    EXPECT_NEAR(
-        world.model.nodes.reference[firstNode(world.model, edges.side(EdgeId(i), 0)).value].x,
-        kLength / 2, 1e-9);
-  }
+  for (const CrackLine& crack : cracksOf(world)) EXPECT_NEAR(crack.first.x, kLength / 2, 1e-9);
   // To what steps make of the law's work.
   EXPECT_NEAR(world.ledger.fracture / (kEnergy * kHeight), 1, .01);
 }
@@ -163,16 +155,13 @@ TEST(Mixed, AnInterfaceMayCrackBetweenMaterialsThatDoNot) {
 
 /// A square with a round inclusion, pulled apart: cracks pass around what is stronger.
 World inclusion(double strengthOfInclusion) {
-  const Polygon outline{{{0, 0}, {.1, 0}, {.1, .1}, {0, .1}}, {}};
-  JointLines circle;
-  constexpr int kSides = 20;
-  const auto at = [](int k) {
-    const double angle = 2 * M_PI * k / kSides;
-    return Vec2{.05 + .02 * std::cos(angle), .05 + .02 * std::sin(angle)};
-  };
-  for (int k = 0; k < kSides; ++k) circle.push_back({at(k), at(k + 1)});
+  const Polygon outline{box({0, 0}, {.1, .1}), {}};
+  const Loop corners = circle({.05, .05}, .02, 20);
+  JointLines lines;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    lines.push_back({corners[k], corners[(k + 1) % corners.size()]});
   const TriangleMesh mesh =
-      triangulate(outline, 5e-3, {NodeLayout::kScattered, 1}, INFINITY, circle);
+      triangulate(outline, 5e-3, {NodeLayout::kScattered, 1}, INFINITY, lines);
   BodySpec spec;
   spec.materials.materials = {brittle(10e9, 3e6, 30), brittle(30e9, strengthOfInclusion, 30)};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -187,14 +176,12 @@ World inclusion(double strengthOfInclusion) {
 }
 
 std::size_t cracksIn(const World& world, std::uint32_t material) {
-  const CrackEdges& edges = world.fracture.edges;
+  const auto isIn = [&](ElementId e) {
+    return world.model.triangles.material[e.value] == material;
+  };
   std::size_t count = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto number = [&](int k) {
-      return world.model.triangles.material[edges.element[i][static_cast<std::size_t>(k)].value];
-    };
-    if (edges.cracked[i] != 0 && number(0) == material && number(1) == material) ++count;
-  }
+  for (const CrackLine& crack : cracksOf(world))
+    count += std::ranges::all_of(world.fracture.edges.element[crack.edge.value], isIn) ? 1 : 0;
   return count;
 }
 

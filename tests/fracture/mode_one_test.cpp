@@ -3,67 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "fracture/cohesive_law.hpp"
-#include "fracture/softening_curves.hpp"
 #include "fracture/two_triangles.hpp"
 
 namespace yadefrag::test {
 namespace {
-
-constexpr std::array<std::uint32_t, 3> kLeft = {0, 1, 2};  // nodes of the left triangle
-
-/// Two triangles, stretched by more than the edge x = 0 between them bears: it cracks in the first
-/// step, in which they have shrunk a little.
-class TwoTriangles {
- public:
-  explicit TwoTriangles(double dt, const SofteningCurve& curve = {}) {
-    BodySpec spec;
-    spec.brittle.softening = curve;
-    addTwoTriangles(world, spec, 1.3);
-    world.step(dt);
-    EXPECT_EQ(world.fracture.numCracks(), 1U);
-    EXPECT_EQ(world.model.nodes.size(), 6U);
-  }
-
-  /// (m) Opening at an end.
-  [[nodiscard]] double opening(std::size_t end) const { return openingOf(world, end).x; }
-
-  /// In the next step forces give each half this speed (m/s), away from the other.
-  void drive(double speed, double dt) {
-    Nodes& nodes = world.model.nodes;
-    world.loads.outerForces.assign(nodes.size(), {});
-    for (std::size_t element = 0; element < 2; ++element)
-      for (const NodeId node : world.model.triangles.nodes[element]) {
-        const Vec2 wanted{element == 0 ? -speed : speed, 0};
-        world.loads.outerForces[node.value] =
-            (nodes.mass[node.value] / dt) * (wanted - nodes.velocity[node.value]);
-      }
-  }
-
-  /// (Pa) One step; the traction on the left half, from its momentum.
-  double step(double dt) {
-    double push = 0;
-    for (const NodeId node : world.model.triangles.nodes[0])
-      if (!world.loads.outerForces.empty()) push += world.loads.outerForces[node.value].x;
-    const double before = momentum();
-    world.step(dt);
-    return ((momentum() - before) / dt - push) / kArea;
-  }
-
-  World world;
-
- private:
-  [[nodiscard]] double momentum() const {
-    double sum = 0;
-    for (const NodeId node : world.model.triangles.nodes[0])
-      sum += world.model.nodes.mass[node.value] * world.model.nodes.velocity[node.value].x;
-    return sum;
-  }
-};
 
 /// What the law gives in a step between two openings: while they grow, that at the step's begin.
 double lawful(const TensionLaw& law, double& largest, double begin, double end) {
@@ -87,34 +34,34 @@ RunResult run(std::initializer_list<double> turns, int steps, const SofteningCur
   const TensionLaw law{curve, kStrength, curve.criticalOpening(kStrength, kEnergy)};
   const double critical = law.criticalOpening;
   const double dt = critical / (2 * kSpeed) / steps;
-  TwoTriangles pair(dt, curve);
-  const World& world = pair.world;
-  const auto least = [&] { return std::min(pair.opening(0), pair.opening(1)); };
-  const double start = totalEnergy(world);
+  BodySpec spec;
+  spec.brittle.softening = curve;
+  DrivenPair pair(spec, dt);
+  const auto least = [&] { return std::min(pair.opening(0).x, pair.opening(1).x); };
   double largest[2] = {0, 0};
   RunResult result;
   for (const double turn : turns) {
     const double sign = turn * critical > least() ? 1 : -1;
     // Those that are to close further than shut never come there.
     for (int n = 0; n < 2 * steps && sign * (turn * critical - least()) > 0; ++n) {
-      if (n == 0) pair.drive(sign * kSpeed, dt);
-      const double begin[2] = {pair.opening(0), pair.opening(1)};
-      const double traction = pair.step(dt);
+      if (n == 0) pair.drive({sign * kSpeed, 0});
+      const double begin[2] = {pair.opening(0).x, pair.opening(1).x};
+      pair.step();
       double wanted = 0;
       for (std::size_t end = 0; end < 2; ++end) {
-        wanted += lawful(law, largest[end], begin[end], pair.opening(end)) / 2;
-        result.largestStep = std::max(result.largestStep, std::abs(pair.opening(end) - begin[end]));
+        wanted += lawful(law, largest[end], begin[end], pair.opening(end).x) / 2;
+        result.largestStep =
+            std::max(result.largestStep, std::abs(pair.opening(end).x - begin[end]));
       }
       result.leastOpening = std::min(result.leastOpening, least());
       // Shut faces push, too.
       if (least() > 1e-6 * critical)
         result.worstTraction =
-            std::max(result.worstTraction, std::abs(traction - wanted) / kStrength);
-      result.worstEnergy =
-          std::max(result.worstEnergy, std::abs(totalEnergy(world) - start) / (kEnergy * kArea));
+            std::max(result.worstTraction, std::abs(pair.traction.x - wanted) / kStrength);
     }
   }
-  result.spent = world.ledger.fracture / (kEnergy * kArea);
+  result.worstEnergy = pair.worstEnergy / (kEnergy * kArea);
+  result.spent = pair.world.ledger.fracture / (kEnergy * kArea);
   return result;
 }
 
@@ -190,7 +137,7 @@ TEST(ModeOne, ShutFacesStayApart) {
 /// between them from which on nothing holds. `strength`: Pa, once the edge has cracked.
 double doorsRelease(double strength) {
   constexpr double kDt = 1e-10, kSpin = 5e5;  // s, rad/s of each half: a step turns them 10⁻⁴ rad
-  TwoTriangles pair(kDt);
+  DrivenPair pair({}, kDt);
   World& world = pair.world;
   world.fracture.edges.strength[0] = strength;
   Nodes& nodes = world.model.nodes;

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "core/disjoint_sets.hpp"
 #include "fracture/random_cracks.hpp"
 #include "step/overlap_depth.hpp"
+#include "step/world.hpp"
 
 namespace yadefrag::test {
 
@@ -134,6 +137,24 @@ inline double shortestSide(const World& world) {
     least = std::min(least, norm(world.model.nodes.reference[lastNode(world.model, side).value] -
                                  world.model.nodes.reference[firstNode(world.model, side).value]));
   return least;
+}
+
+/// (m²) Their areas.
+inline std::vector<double> wholePieces(const World& world) {
+  const CrackEdges& edges = world.fracture.edges;
+  const std::vector<double>& areas = world.model.triangles.area;
+  DisjointSets pieces(areas.size());
+  const auto join = [&](EdgeId edge) {
+    const auto [a, b] = edges.element[edge.value];
+    pieces.join(a.value, b.value);
+  };
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (edges.cracked[i] == 0) join(EdgeId(i));
+  for (const EdgeId edge : world.fracture.cohesion.edge) join(edge);
+  std::vector<double> sums(areas.size());
+  for (std::uint32_t e = 0; e < areas.size(); ++e) sums[pieces.find(e)] += areas[e];
+  std::erase(sums, 0);
+  return sums;
 }
 
 }  // namespace yadefrag::test

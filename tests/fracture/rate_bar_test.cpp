@@ -23,7 +23,6 @@ constexpr double kStrength = 3e6, kEnergy = 100;     // Pa, J/m²
 constexpr double kLength = .06, kHeight = .03;       // m
 constexpr double kSize = .005;                       // m
 constexpr double kFailureStrain = kStrength / 30e9;  // of a slow test
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Bar {
   double rate;   ///< 1/s

@@ -59,15 +59,6 @@ inline World pulseIn(const std::vector<TriangleMesh>& parts, double dt) {
   return world;
 }
 
-/// About the origin; positions at the mean of the two half steps would be needed with forces only.
-inline double wholeSpin(const World& world) {
-  double sum = 0;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    sum += world.model.nodes.mass[n] *
-           cross(world.model.nodes.position[n], world.model.nodes.velocity[n]);
-  return sum;
-}
-
 /// A brick on two half bricks that are shifted by `part` of an element, turned by `angle`.
 inline World tJunction(double part, double angle, double upperSize, bool isFree = true) {
   constexpr double size = .01;
@@ -82,8 +73,7 @@ inline World tJunction(double part, double angle, double upperSize, bool isFree 
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
       const Vec2 at = mesh.nodes[n];
       if (isFree) spec.velocity[n] = {-3 * at.y, 5 * at.x};
-      mesh.nodes[n] = {at.x * std::cos(angle) - at.y * std::sin(angle),
-                       at.x * std::sin(angle) + at.y * std::cos(angle)};
+      mesh.nodes[n] = turnedBy(at, angle);
     }
     world.addBody(mesh, spec);
   }

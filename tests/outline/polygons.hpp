@@ -10,23 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/shapes.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "meshing/triangle_quality.hpp"
 
 namespace yadefrag::test {
-
-using Loop = std::vector<Vec2>;
-
-inline Loop box(Vec2 low, Vec2 high) { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
-
-inline Loop circle(Vec2 centre, double radius, int n) {
-  Loop loop;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * M_PI * i / n;
-    loop.push_back(centre + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
-  }
-  return loop;
-}
 
 /// A star-shaped loop about the origin with random radii in [least, 1].
 inline Loop star(std::mt19937& random, int n, double least) {

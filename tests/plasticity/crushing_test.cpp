@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fracture/whole_pieces.hpp"
+#include "fracture/overlaps.hpp"
 #include "plasticity/yielding_bodies.hpp"
 
 namespace yadefrag::test {
@@ -41,8 +41,8 @@ struct Bar {
     }
     hold(spec, mesh, kHeldX, [](Vec2 x) { return x.x < 1e-9 || x.x > kLength - 1e-9; });
     world.addBody(mesh, spec);
-    left = nodesWhere(world, [](Vec2 x) { return x.x < 1e-9; });
-    right = nodesWhere(world, [](Vec2 x) { return x.x > kLength - 1e-9; });
+    left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x < 1e-9; });
+    right = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x > kLength - 1e-9; });
     world.dynamicsSettings.viscosity = {.06, 1.2};
     dt = .8 * world.criticalTimeStep();
   }

@@ -21,28 +21,6 @@ inline double shearStrength(const BodySpec& spec) {
   return spec.plastic.yieldStress / std::numbers::sqrt3;
 }
 
-/// The mesh of the outline turned by `degrees`, turned back.
-inline TriangleMesh turnedMesh(Polygon polygon, double size, double degrees,
-                               MeshLayout layout = {}) {
-  const double c = std::cos(degrees * std::numbers::pi / 180),
-               s = std::sin(degrees * std::numbers::pi / 180);
-  const auto turn = [&](std::vector<Vec2>& points, double by) {
-    for (Vec2& p : points) p = Vec2{c * p.x - by * s * p.y, by * s * p.x + c * p.y};
-  };
-  turn(polygon.outline, 1);
-  for (auto& hole : polygon.holes) turn(hole, 1);
-  TriangleMesh mesh = triangulate(polygon, size, layout);
-  turn(mesh.nodes, -1);
-  return mesh;
-}
-
-inline std::vector<NodeId> nodesWhere(const World& world, const std::function<bool(Vec2)>& where) {
-  std::vector<NodeId> found;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    if (where(world.model.nodes.reference[n])) found.emplace_back(n);
-  return found;
-}
-
 /// (N/m) Mean force with which the nodes press downwards in the last fifth of the steps.
 inline double meanForce(World& world, const std::vector<NodeId>& nodes, double dt, int steps) {
   double sum = 0;

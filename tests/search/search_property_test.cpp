@@ -1,14 +1,20 @@
 // Every search finds exactly the pairs of brute force, in random scenes whose boxes move, jump,
-// appear and vanish. YADEFRAG_SCENES sets the number of scenes (default 30,000).
+// appear and vanish, and so does one with a list of the changed boxes, after every change.
+// YADEFRAG_SCENES sets the number of scenes (default 30,000; a hundredth of it for changes).
 #include <gtest/gtest.h>
-#include <memory>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <memory>
+#include <random>
+#include <vector>
 
+#include "core/tolerances/search.hpp"
 #include "random_scenes.hpp"
-#include "search/contact_search.hpp"
+#include "search/box_count.hpp"
+#include "search/incremental_search.hpp"
 
 namespace yadefrag {
 namespace {
@@ -26,9 +32,16 @@ std::vector<BoxPair> sortedPairs(ContactSearch& search, const std::vector<Box>& 
   return pairs;
 }
 
-constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
+constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
                                      SearchMethod::kSweptRows, SearchMethod::kFastest,
-                                     SearchMethod::kHierarchy};
+                                     SearchMethod::kHierarchy, SearchMethod::kBruteForce};
+
+/// `pairsOf` gives the same ones, in the same order, with any number of threads; how many.
+std::size_t sameForAnyThreads(const std::function<std::vector<BoxPair>(int)>& pairsOf) {
+  const std::vector<BoxPair> first = pairsOf(1);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(pairsOf(threads), first) << threads << " threads";
+  return first.size();
+}
 
 TEST(SearchProperty, SamePairsAsBruteForce) {
   const std::uint64_t scenes = sceneCount();
@@ -81,17 +94,16 @@ TEST(SearchProperty, SameOrderForAnyNumberOfThreads) {
       boxes[i].max[axis] = boxes[i].min[axis] + (i % 8 == 0 ? 1.9 : .7);  // two levels
     }
   for (const SearchMethod method : kMethods) {
-    std::vector<BoxPair> first;
-    for (const int threads : {1, 2, 3, 8}) {
+    if (method == SearchMethod::kBruteForce) continue;  // slow, and has no threads
+    const std::size_t found = sameForAnyThreads([&](int threads) {
       const auto search = makeSearch(method);
       search->setThreads(threads);
       std::vector<BoxPair> pairs;
       search->update(boxes);
       search->findPairs(pairs);
-      if (threads == 1) first = pairs;
-      ASSERT_EQ(pairs, first) << threads << " threads";
-    }
-    EXPECT_GT(first.size(), 1000U);
+      return pairs;
+    });
+    EXPECT_GT(found, 1000U);
   }
 }
 
@@ -100,9 +112,7 @@ TEST(SearchProperty, StopsWhereThereAreTooManyPairs) {
   for (const bool finite : {true, false}) {
     const double side = finite ? 1 : INFINITY;
     const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {side, 1, 1}});
-    for (const SearchMethod method :
-         {SearchMethod::kBruteForce, SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-          SearchMethod::kSweptRows, SearchMethod::kFastest, SearchMethod::kHierarchy}) {
+    for (const SearchMethod method : kMethods) {
       const auto search = makeSearch(method);
       search->setThreads(2);
       search->setMostPairs(kMost);
@@ -130,6 +140,201 @@ TEST(SearchProperty, ClearRemovesEverything) {
     fresh->update(after.boxes());
     fresh->findPairs(b);
     EXPECT_EQ(a, b);  // in the same order too
+  }
+}
+
+// --- A search with a list of the changed boxes.
+
+std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vector<Box>& now) {
+  std::vector<BoxId> changed;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (i >= before.size() || before[i].min != now[i].min || before[i].max != now[i].max)
+      changed.push_back(BoxId(i));
+  return changed;
+}
+
+/// The pairs that a caller keeps from one change to the next.
+class KeptPairs {
+ public:
+  explicit KeptPairs(SearchMethod method, bool counts) : search_(method, counts) {}
+
+  void look(const std::vector<Box>& before, const std::vector<Box>& now) {
+    std::vector<BoxPair> found;
+    if (now.size() < before.size() || before.empty()) {
+      search_.update(now);
+      search_.findPairs(found);
+      pairs_ = found;
+      std::sort(pairs_.begin(), pairs_.end());
+      return;
+    }
+    const std::vector<BoxId> changed = changedSlots(before, now);
+    const auto isChanged = [&](BoxId id) {
+      return std::binary_search(changed.begin(), changed.end(), id);
+    };
+    std::erase_if(pairs_,
+                  [&](const BoxPair& p) { return isChanged(p.first) || isChanged(p.second); });
+    search_.change(now, changed);
+    search_.findPairsOfChanged(found);
+    const auto hasChanged = [&](const BoxPair& p) {
+      return isChanged(p.first) || isChanged(p.second);
+    };
+    EXPECT_TRUE(std::all_of(found.begin(), found.end(), hasChanged));
+    pairs_.insert(pairs_.end(), found.begin(), found.end());
+    std::sort(pairs_.begin(), pairs_.end());
+  }
+
+  [[nodiscard]] const std::vector<BoxPair>& pairs() const { return pairs_; }
+  [[nodiscard]] const IncrementalSearch& search() const { return search_; }
+
+ private:
+  IncrementalSearch search_;
+  std::vector<BoxPair> pairs_;
+};
+
+TEST(IncrementalSearch, SamePairsAsBruteForceWhileBoxesMoveComeAndGo) {
+  const std::uint64_t scenes = std::max<std::uint64_t>(sceneCount() / 100, 100);
+  std::uint64_t found = 0, aside = 0;
+  const auto brute = makeSearch(SearchMethod::kBruteForce);
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    RandomScene scene(seed);
+    std::vector<KeptPairs> kept;
+    for (const SearchMethod method : kMethods) kept.emplace_back(method, seed % 2);
+    std::vector<Box> before;
+    for (int step = 0; step < 6; ++step) {
+      // Another array each time: what was given before may be gone.
+      const std::vector<Box> now = scene.boxes();
+      const std::vector<BoxPair> expected = sortedPairs(*brute, now);
+      found += expected.size();
+      for (std::size_t k = 0; k < kept.size(); ++k) {
+        kept[k].look(before, now);
+        ASSERT_EQ(kept[k].pairs(), expected) << "seed " << seed << ", step " << step << ", " << k;
+        aside += kept[k].search().aside();
+        if (now.empty()) continue;
+        const Box& box = now[seed % now.size()];
+        if (!box.isAbsent()) {
+          std::vector<BoxId> overlapping;
+          kept[k].search().findOverlaps(box, overlapping);
+          std::size_t wanted = 0;
+          for (const Box& other : now) wanted += overlaps(box, other);
+          ASSERT_EQ(overlapping.size(), wanted) << "seed " << seed << ", step " << step;
+        }
+      }
+      before = now;
+      scene.step();
+    }
+  }
+  EXPECT_GT(found, 10 * scenes) << "scenes too empty to prove anything";
+  EXPECT_GT(aside, scenes) << "everything was always sorted in";
+}
+
+/// `count` boxes of side 1, on average three neighbours each.
+std::vector<Box> evenBoxes(std::size_t count, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(0, std::cbrt(static_cast<double>(count) * 2.7));
+  std::vector<Box> boxes(count);
+  for (Box& box : boxes)
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = place(random);
+      box.max[axis] = box.min[axis] + 1;
+    }
+  return boxes;
+}
+
+TEST(IncrementalSearch, SameOrderForAnyNumberOfThreads) {
+  const std::size_t found = sameForAnyThreads([](int threads) {
+    std::mt19937_64 random(4);
+    std::vector<Box> boxes = evenBoxes(20000, random);
+    IncrementalSearch search(SearchMethod::kLebesgue);
+    search.setThreads(threads);
+    search.update(boxes);
+    std::vector<BoxPair> pairs;
+    search.findPairs(pairs);
+    for (int round = 0; round < 5; ++round) {
+      std::vector<BoxId> changed;
+      for (std::size_t i = static_cast<std::size_t>(round); i < boxes.size(); i += 7) {
+        boxes[i].max[0] += .5;
+        changed.push_back(BoxId(i));
+      }
+      search.change(boxes, changed);
+      search.findPairsOfChanged(pairs);
+    }
+    return pairs;
+  });
+  EXPECT_GT(found, 10000U);
+}
+
+/// Comparisons of changes by one box among `count`.
+double comparisonsOfOneMove(std::size_t count) {
+  std::mt19937_64 random(5);
+  std::vector<Box> boxes = evenBoxes(count, random);
+  IncrementalSearch search(SearchMethod::kLebesgue, true);
+  search.update(boxes);
+  std::vector<BoxPair> pairs;
+  search.findPairs(pairs);
+  const auto before = search.comparisons().total();
+  constexpr int kMoves = 20;
+  for (int move = 0; move < kMoves; ++move) {
+    const BoxId one(random() % count);
+    boxes[one.value].max[1] += .1;
+    search.change(boxes, {&one, 1});
+    search.findPairsOfChanged(pairs);
+  }
+  return static_cast<double>(search.comparisons().total() - before) / kMoves;
+}
+
+TEST(IncrementalSearch, OneMoveCostsNoMoreAmongMany) {
+  // Without `count`, a search of 4·10⁴ boxes takes 4·10⁴ looks at least.
+  EXPECT_LT(comparisonsOfOneMove(40000), 1000);
+  EXPECT_LT(comparisonsOfOneMove(40000), 2 * comparisonsOfOneMove(1000) + 100);
+}
+
+TEST(IncrementalSearch, SortsInWhatHasWaitedForLong) {
+  std::mt19937_64 random(6);
+  std::vector<Box> boxes = evenBoxes(2000, random);
+  IncrementalSearch search(SearchMethod::kLebesgue);
+  search.update(boxes);
+  bool settled = false;
+  for (std::size_t i = 0; i < boxes.size() && !settled; ++i) {
+    const BoxId one(i);
+    boxes[i].max[0] += .1;
+    search.change(boxes, {&one, 1});
+    settled = search.aside() == 0;
+    // The sum 1 + 2 + … + k of the looks has reached the number of boxes.
+    ASSERT_TRUE(settled || i * i / 2 <= tolerance::kAsideWork * boxes.size());
+  }
+  EXPECT_TRUE(settled);
+}
+
+TEST(IncrementalSearch, StopsWhereThereAreTooManyPairs) {
+  std::vector<Box> boxes(800, Box{{0, 0, 0}, {1, 1, 1}});
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].min[0] = boxes[i].max[0] = 2. * double(i);
+  IncrementalSearch search(SearchMethod::kLebesgue);
+  search.setThreads(2);
+  search.update(boxes);
+  std::vector<BoxId> changed;
+  for (std::size_t i = 0; i < boxes.size(); i += 2) {
+    boxes[i] = {{0, 0, 0}, {2000, 1, 1}};
+    changed.push_back(BoxId(i));
+  }
+  search.setMostPairs(20000);
+  search.change(boxes, changed);
+  std::vector<BoxPair> pairs;
+  EXPECT_THROW(search.findPairsOfChanged(pairs), TooManyPairs);
+  search.setMostPairs(1000000);
+  search.findPairsOfChanged(pairs);
+  EXPECT_EQ(pairs.size(), 400U * 399 / 2 + 400U * 400);
+}
+
+TEST(SearchMemory, MoreBoxesThanCanBeCountedAreRefused) {
+  // None of them is looked at: there is one.
+  const Box one{{0, 0, 0}, {1, 1, 1}};
+  for (const std::size_t count : {kMostBoxes + 1, (std::size_t{1} << 32) + 1}) {
+    const std::span<const Box> many(&one, count);
+    for (const SearchMethod method : kMethods)
+      EXPECT_THROW(makeSearch(method)->update(many), RunError);
+    IncrementalSearch search(SearchMethod::kLebesgue);
+    EXPECT_THROW(search.update(many), RunError);
+    search.update({&one, 1});
+    EXPECT_THROW(search.change(many, {}), RunError);
   }
 }
 

@@ -1,8 +1,11 @@
 // Corners: where node against segment has the most ways to go wrong.
 
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/fe_scenes.hpp"
 #include "outline/polygon.hpp"
 #include "step/figures.hpp"
 #include "step/run_result.hpp"
@@ -133,6 +136,78 @@ TEST_P(ShallowNotch, RattlesOnARidgeWithoutEnergyFromNothing) {
 INSTANTIATE_TEST_SUITE_P(Slopes, ShallowNotch,
                          testing::Values(std::tuple(.15, .3, 0.), std::tuple(.15, .3, .1),
                                          std::tuple(.1, .1, 0.), std::tuple(.1, .1, .3)));
+
+// --- Shapes that break what holds for blocks: a splinter whose sides do not oppose what it pricks,
+// a notch too narrow for a foot.
+
+class Splinter : public testing::TestWithParam<std::tuple<double, int>> {};
+
+/// A needle with a tip of 5° falls on a block.
+TEST_P(Splinter, PricksABlock) {
+  const auto [tilt, passes] = GetParam();
+  World world;
+  world.contactSettings.passes = passes;
+  const TriangleMesh block = structuredRectangle({0, 0}, {1, .5}, 8, 4);
+  BodySpec held = moving(block, rubber(), {0, 0});
+  hold(held, block, kHeldXY, [](Vec2 at) { return at.y < 1e-9; });
+  const Vec2 tip{.53, .505}, back{std::sin(tilt), std::cos(tilt)};
+  const Vec2 aside = .0437 * rightOf(back);
+  const TriangleMesh needle = meshOf({tip, tip + back + aside, tip + back - aside}, .05);
+  world.addBody(block, held);
+  world.addBody(needle, moving(needle, rubber(), {0, -2}));
+  expectSound(watch(world, 3000, 20));
+}
+
+INSTANTIATE_TEST_SUITE_P(TiltsAndPasses, Splinter,
+                         testing::Combine(testing::Values(0., .03, .3), testing::Values(1, 2)));
+
+class NarrowNotch : public testing::TestWithParam<double> {};
+
+/// A tip of 20° that falls askew into a notch of 37°.
+TEST_P(NarrowNotch, TakesATip) {
+  const double lean = GetParam();
+  World world;
+  world.contactSettings.passes = 2;
+  const TriangleMesh notch =
+      meshOf({{-1, -1}, {1, -1}, {1, 1}, {.333, 1}, {0, 0}, {-.333, 1}, {-1, 1}}, .15);
+  BodySpec held = moving(notch, rubber(), {0, 0});
+  hold(held, notch, kHeldXY, [](Vec2 at) { return at.y < -1 + 1e-9; });
+  const Vec2 tip{.1 * lean, .35}, back{std::sin(lean), std::cos(lean)};
+  const Vec2 aside = .176 * rightOf(back);
+  const TriangleMesh wedge = meshOf({tip, tip + back + aside, tip + back - aside}, .1);
+  world.addBody(notch, held);
+  world.addBody(wedge, moving(wedge, rubber(), {0, -8}));
+  expectSound(watch(world, 4000, 20));
+}
+
+INSTANTIATE_TEST_SUITE_P(Leans, NarrowNotch, testing::Values(0., .05, -.1));
+
+// --- Smooth surfaces lie inside the polygon that was drawn: two round bodies meet later than their
+// polygons would, by what the README states.
+
+/// Of two equal balls that face each other with a node, halfpoints are the slaves that meet first.
+/// They are at the angle π/n, at the radius R cos(π/n): each R sin²(π/n) = h²/4R behind its node.
+TEST(SmoothGap, ClosesLaterByTheHalfpointsOfBothBalls) {
+  constexpr double kRadius = .5, kGap = .01, kSpeed = 1;
+  for (const int sides : {12, 24, 48}) {
+    const double side = 2 * kRadius * std::sin(std::numbers::pi / sides);
+    World world;
+    for (const int k : {0, 1}) {
+      const TriangleMesh mesh =
+          triangulate({circle({k * (2 * kRadius + kGap), 0}, kRadius, sides), {}}, side);
+      BodySpec spec;
+      spec.material = {1e7, .3, 1000, false};
+      spec.selfContact = false;
+      spec.velocity.assign(mesh.nodes.size(), {k == 0 ? kSpeed : 0, 0});
+      spec.smoothNodes.assign(mesh.nodes.size(), 1);
+      world.addBody(mesh, spec);
+    }
+    const double dt = .2 * world.criticalTimeStep();
+    while (world.contact.rows().empty() && world.time < 1) world.step(dt);
+    // Found in the step that would end inside.
+    EXPECT_NEAR(world.time * kSpeed, kGap + side * side / (2 * kRadius), 2 * dt * kSpeed) << sides;
+  }
+}
 
 }  // namespace
 }  // namespace yadefrag::test

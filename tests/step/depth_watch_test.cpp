@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "step/bodies.hpp"
-#include "step/watched_step.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -12,7 +12,6 @@
 #include "core/tolerances/step.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
-#include "step/watched_step.hpp"
 
 namespace yadefrag::test {
 namespace {

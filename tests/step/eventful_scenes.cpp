@@ -1,6 +1,12 @@
 #include "step/eventful_scenes.hpp"
 
-#include "extremes/saved_world.hpp"
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <sstream>
+
+#include "fe/fe_archive.hpp"
+#include "publish/archive_of.hpp"
 #include "step/run_result.hpp"
 
 namespace yadefrag::test {
@@ -130,6 +136,24 @@ std::map<std::string, Scene> scenes() {
     world.dynamicsSettings.gravity = {0, -9.81};
     world.dynamicsSettings.viscosity = {.06, 1.2};
     world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {10, 20}));
+    const std::vector<NodeId>& rim = world.surfaces.segmentNode;
+    world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {1e3, 2e3}));
+    world.setAbsorbing(std::span(rim).last(3));
+    return world;
+  };
+  // Squares and smooth discs of different meshes that close in on one another.
+  all["crowd"] = [] {
+    World world;
+    for (int k = 0; k < 9; ++k) {
+      const Vec2 place{double(k % 3), double(k / 3)};
+      const bool disc = k % 2 == 0;
+      const TriangleMesh mesh =
+          triangulate({circle(1.02 * place, .5, disc ? 16 : 4, .7 * k), {}}, 1. / (4 + k % 3));
+      BodySpec spec = moving(mesh, rubber(), 6 * (Vec2{1, 1} - place) + Vec2{.1 * k, 0});
+      spec.friction = .3;
+      if (disc) smoothAll(spec, mesh);
+      world.addBody(mesh, spec);
+    }
     return world;
   };
   all["alone"] = [] {
@@ -195,6 +219,56 @@ World copyOf(World& world) {
   copy.fracture.minFragmentArea = world.fracture.minFragmentArea;
   load(saved(world), copy);
   return copy;
+}
+
+void drive(World& world) {
+  const std::vector<NodeId> driven{NodeId(world.model.nodes.size() - 1)};
+  world.prescribeMotion(
+      driven, kHeldXY,
+      {.centre = {.02, 0}, .speedX = TimeTable({0, 1e-5}, {0, -30}), .turn = TimeTable(3)});
+  const std::vector<NodeId>& rim = world.surfaces.segmentNode;
+  world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {10, 20}));
+  world.setAbsorbing(std::span(rim).last(3));
+}
+
+World eventfulWorld(bool isDriven) {
+  World world;
+  world.contactSettings.passes = 2;
+  for (int k = 0; k < 3; ++k) {
+    const Vec2 low{.01 * k, 0};
+    const TriangleMesh mesh =
+        structuredRectangle(low, low + Vec2{.01, .01}, 3 + k, 3, QuadPattern::kCrossed);
+    BodySpec spec = moving(mesh, {1e9, .2, 1000, false}, {30. - 30 * k, 0});
+    spec.friction = .3;
+    if (k < 2) spec.brittle.tensileStrength = 1e6;
+    if (k == 1) spec.brittle.fractureEnergy = 20;
+    if (k == 2) smoothAll(spec, mesh);
+    world.addBody(mesh, spec);
+  }
+  if (isDriven) drive(world);
+  world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {1, 2}));
+  const double dt = .3 * world.criticalTimeStep();
+  while (world.steps < 30) world.step(dt);
+  return world;
+}
+
+std::string saved(World& world, unsigned flags) {
+  std::ostringstream text;
+  boost::archive::binary_oarchive archive(text, flags | boost::archive::no_codecvt);
+  std::vector<int> bodies(world.surfaces.entries());
+  ArchiveOf any(archive);
+  std::vector<Vec2> forces;
+  archiveWorld(any, world, bodies, forces);
+  return text.str();
+}
+
+void load(const std::string& bytes, World& world, unsigned flags) {
+  std::istringstream text(bytes);
+  boost::archive::binary_iarchive archive(text, flags | boost::archive::no_codecvt);
+  std::vector<int> bodies;
+  ArchiveOf any(archive);
+  std::vector<Vec2> forces;
+  archiveWorld(any, world, bodies, forces);
 }
 
 }  // namespace yadefrag::test

@@ -1,11 +1,12 @@
 #pragma once
-// Scenes in which everything happens that a world can do, and the bytes of all that it then is.
+// Scenes in which everything happens that a world can do, the bytes of all that it then is, and
+// worlds that are saved as FESolver saves them, and loaded again.
 
 #include <functional>
 #include <map>
 #include <string>
 
-#include "step/world.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 
@@ -24,5 +25,15 @@ std::string whatDiffers(const State& a, const State& b);
 
 /// A world that is saved and loaded, with the settings that belong to no state.
 World copyOf(World& world);
+
+/// A node that moves and turns, a pressure that grows, a side that lets waves out.
+void drive(World& world);
+
+/// Cracked, cohesive, smooth and loaded bodies in contact.
+World eventfulWorld(bool isDriven = false);
+
+/// `flags`: Boost's; no_header leaves out its own signature.
+std::string saved(World& world, unsigned flags = 0);
+void load(const std::string& bytes, World& world, unsigned flags = 0);
 
 }  // namespace yadefrag::test

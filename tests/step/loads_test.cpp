@@ -1,12 +1,14 @@
 // Loads on pieces of the boundary.
 
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/errors.hpp"
+#include "mesh/motion.hpp"
 #include "meshing/structured.hpp"
 #include "step/bodies.hpp"
 #include "step/world.hpp"
@@ -23,24 +25,12 @@ World oneBlock(Vec2 low = {0, 0}, Vec2 velocity = {0, 0}) {
   return world;
 }
 
-std::vector<NodeId> nodesWhere(const World& world, auto isChosen) {
-  std::vector<NodeId> nodes;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    if (isChosen(world.model.nodes.position[n])) nodes.emplace_back(n);
-  return nodes;
-}
-
-Vec2 totalMomentum(const World& world) {
-  Vec2 sum;
-  const Nodes& nodes = world.model.nodes;
-  for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * nodes.velocity[n];
-  return sum;
-}
+Vec2 totalMomentum(const World& world) { return momentsOf(world.model.nodes).linear; }
 
 TEST(Pressure, PushesAlongTheNormalAndChangesInTime) {
   World world = oneBlock();
   const double dt = .5 * world.criticalTimeStep();
-  world.setPressure(nodesWhere(world, [](Vec2 x) { return x.x == 0; }),
+  world.setPressure(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; }),
                     TimeTable({0, 2 * dt}, {100, 300}));
   double sum = 0;
   for (const double pressure : {100, 200, 300, 300}) {
@@ -52,7 +42,7 @@ TEST(Pressure, PushesAlongTheNormalAndChangesInTime) {
 
 TEST(Pressure, TheLastOneCounts) {
   World world = oneBlock();
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; });
   for (const double pressure : {1., 2., 3.}) world.setPressure(left, TimeTable(pressure));
   EXPECT_EQ(world.loads.pressures.size(), 1U);
   world.setPressure(left, TimeTable(0));
@@ -63,8 +53,8 @@ TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
   World world = oneBlock({5, 0});
   const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 3, 3, QuadPattern::kCrossed);
   world.addBody(mesh, moving(mesh, kRubber, {0, 0}));
-  world.setPressure(nodesWhere(world, [](Vec2 x) { return x.x == 0; }), TimeTable(10));
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  world.setPressure(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; }), TimeTable(10));
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1; }));
   world.removeBody(ComponentId(0));
   const double dt = .1 * world.criticalTimeStep();
   world.step(dt);
@@ -92,17 +82,23 @@ TEST(Pressure, SpreadsAlongNewSides) {
   EXPECT_EQ(pressure.segments, wanted);
 }
 
-// Of a body that moves as one, the dashpots take ρcv on each square metre at once.
-TEST(Absorbing, TakesImpedanceTimesVelocity) {
-  World world = oneBlock({0, 0}, {.1, .2});
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+/// (N) By the right side, which absorbs, in a tiny step.
+Vec2 absorbedBy(World& world) {
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1; }));
   const Vec2 before = totalMomentum(world);
   const double dt = 1e-6 * world.criticalTimeStep();
   world.step(dt);
-  const Vec2 force = (1 / dt) * (totalMomentum(world) - before);
+  return (1 / dt) * (totalMomentum(world) - before);
+}
+
+// Of a body that moves as one, the dashpots take ρcv on each square metre at once.
+TEST(Absorbing, TakesImpedanceTimesVelocity) {
+  World world = oneBlock({0, 0}, {.1, .2});
+  const Vec2 force = absorbedBy(world);
   EXPECT_NEAR(force.x, -.1 * std::sqrt(1000 * kRubber.waveModulus()), 1e-2);
   EXPECT_NEAR(force.y, -.2 * std::sqrt(1000 * kRubber.shearModulus()), 1e-2);
-  EXPECT_NEAR(world.ledger.damping, -dot(force, {.1, .2}) * dt, 1e-5 * world.ledger.damping);
+  EXPECT_NEAR(world.ledger.damping, -dot(force, {.1, .2}) * world.lastDt,
+              1e-5 * world.ledger.damping);
 }
 
 // The same with two materials, each behind half of the side.
@@ -119,11 +115,7 @@ TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
   }
   World world;
   world.addBody(mesh, spec);
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
-  const Vec2 before = totalMomentum(world);
-  const double dt = 1e-6 * world.criticalTimeStep();
-  world.step(dt);
-  const Vec2 force = (1 / dt) * (totalMomentum(world) - before);
+  const Vec2 force = absorbedBy(world);
   const auto mean = [&](double a, double b) {
     return (std::sqrt(1000 * a) + std::sqrt(4000 * b)) / 2;
   };
@@ -135,7 +127,7 @@ TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
 
 TEST(Absorbing, TheEnergyBalanceHolds) {
   World world = oneBlock({0, 0}, {.1, .2});
-  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1 || x.y == 0; }));
+  world.setAbsorbing(nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 1 || x.y == 0; }));
   const double before = world.kineticEnergy();
   const double dt = .8 * world.criticalTimeStep();
   for (int k = 0; k < 400; ++k) world.step(dt);
@@ -145,35 +137,98 @@ TEST(Absorbing, TheEnergyBalanceHolds) {
               1e-6 * before);
 }
 
-TEST(Loads, ARefusedStepLeavesThemAsTheyWere) {
-  World world = oneBlock();
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
-  world.setPressure(left, TimeTable(10));
-  world.setAbsorbing(left);
-  const double dt = .5 * world.criticalTimeStep();
-  world.step(dt);
-  const std::vector<Vec2> place = world.model.nodes.position, speed = world.model.nodes.velocity;
-  const double taken = world.ledger.damping, given = world.ledger.external;
-  world.setPressure(left, TimeTable(1e300));
-  for (int k = 0; k < 2; ++k) {
-    EXPECT_THROW(world.step(dt), RunError);
-    EXPECT_EQ(world.model.nodes.position, place);
-    EXPECT_EQ(world.model.nodes.velocity, speed);
-    EXPECT_EQ(world.ledger.damping, taken);
-    EXPECT_EQ(world.ledger.external, given);
-  }
-}
-
 TEST(Loads, WrongOnesAreRefused) {
   World world = oneBlock();
   const NodeId one[] = {NodeId(0)}, none[] = {NodeId(999)};
-  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x == 0; });
   EXPECT_THROW(world.setPressure(one, TimeTable(1)), InputError);
   EXPECT_THROW(world.setPressure(none, TimeTable(1)), InputError);
   EXPECT_THROW(world.setPressure(left, TimeTable({1, 0}, {1, 1})), InputError);
   EXPECT_THROW(world.setAbsorbing(one), InputError);
   EXPECT_TRUE(world.loads.pressures.empty());
   EXPECT_TRUE(world.loads.absorbing.segments.empty());
+}
+
+// --- Nodes that a motion moves: where they are, what it costs, and what is refused.
+
+std::vector<NodeId> all(const World& world) {
+  return nodesWhere(world.model.nodes, [](Vec2) { return true; });
+}
+
+// Rounding of the place alone, however many steps: 10⁻¹⁵ of a radius of 3 m.
+TEST(Motion, TurnStaysOnItsCircle) {
+  World world = oneBlock();
+  const Vec2 centre{-1, 2};
+  world.prescribeMotion(all(world), kHeldXY, {.centre = centre, .turn = TimeTable(100)});
+  const std::vector<Vec2> start = world.model.nodes.position;
+  const double dt = .5 * world.criticalTimeStep();
+  while (world.time < 20 * std::numbers::pi / 100) world.step(dt);
+  for (std::size_t n = 0; n < start.size(); ++n)
+    EXPECT_NEAR(norm(world.model.nodes.position[n] - centre), norm(start[n] - centre), 1e-14);
+}
+
+TEST(Motion, ReactionsCarryWeightAndLoads) {
+  World world = oneBlock();
+  world.dynamicsSettings.gravity = {0, -10};
+  world.prescribe(all(world), kHeldXY, Vec2{});
+  world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {2, 0}));
+  world.step(.5 * world.criticalTimeStep());
+  const Vec2 sum = std::accumulate(world.reactions.begin(), world.reactions.end(), Vec2{});
+  EXPECT_NEAR(sum.y, 1000 * 10, 1e-8);
+  EXPECT_NEAR(sum.x, -2. * static_cast<double>(world.model.nodes.size()), 1e-8);
+}
+
+TEST(Motion, ReactionAcceleratesABodyThatIsAllHeld) {
+  World world = oneBlock();
+  world.prescribeMotion(all(world), kHeldXY, {.speedX = TimeTable({0, 1}, {0, 5})});
+  const double dt = .5 * world.criticalTimeStep();
+  for (int k = 0; k < 5; ++k) world.step(dt);
+  const Vec2 sum = std::accumulate(world.reactions.begin(), world.reactions.end(), Vec2{});
+  EXPECT_NEAR(sum.x, 1000 * 5, 1e-5);  // 1000 kg, 5 m/s²; speeds are differences of places
+}
+
+TEST(Motion, UnusedOnesAreRemoved) {
+  World world = oneBlock();
+  for (int k = 0; k < 5; ++k) {
+    world.prescribeMotion(all(world), kHeldXY, {.turn = TimeTable(k)});
+    EXPECT_EQ(world.model.motions.size(), 1U);
+  }
+  const NodeId one[] = {NodeId(0)};
+  world.prescribeMotion(one, kHeldX, {.speedX = TimeTable(1)});
+  EXPECT_EQ(world.model.motions.size(), 2U);
+  world.prescribe(all(world), kFree, Vec2{});
+  EXPECT_TRUE(world.model.motions.empty());
+  EXPECT_TRUE(world.model.nodes.motion.empty());
+}
+
+TEST(Motion, WrongOnesAreRefused) {
+  World world = oneBlock();
+  const NodeId one[] = {NodeId(0)}, none[] = {NodeId(999)};
+  EXPECT_THROW(world.prescribeMotion(none, kHeldXY, {}), InputError);
+  EXPECT_THROW(world.prescribeMotion(one, kHeldX, {.turn = TimeTable(1)}), InputError);
+  EXPECT_THROW(world.prescribeMotion(one, kHeldXY, {.centre = {NAN, 0}}), InputError);
+  EXPECT_THROW(world.prescribeMotion(one, kHeldX, {.speedX = TimeTable({1, 0}, {0, 0})}),
+               InputError);
+  EXPECT_TRUE(world.model.motions.empty());
+}
+
+TEST(Motion, FlatNumbersGiveItBack) {
+  const std::vector<Motion> motions{
+      {.centre = {1, 2}, .begin = 3, .speedX = TimeTable({0, 1}, {2, 3}), .turn = TimeTable(4)},
+      {.speedY = TimeTable(5), .function = 6}};
+  const FlatMotions flat = flatten(motions);
+  std::vector<Motion> again;
+  ASSERT_TRUE(unflatten(flat, again));
+  EXPECT_EQ(flatten(again).numbers, flat.numbers);
+  EXPECT_EQ(flatten(again).counts, flat.counts);
+  for (FlatMotions wrong : {flat, flat, flat}) {
+    static int how = 0;
+    if (how == 0) wrong.numbers.pop_back();
+    if (how == 1) wrong.counts.pop_back();
+    if (how == 2) wrong.counts[1] = 4000000000U;
+    ++how;
+    EXPECT_FALSE(unflatten(wrong, again));
+  }
 }
 
 }  // namespace

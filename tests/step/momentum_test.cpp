@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/errors.hpp"
+#include "meshing/structured.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 
@@ -33,11 +35,6 @@ struct Collision {
   double young = 210e9;  ///< Pa
 };
 
-struct Moments {
-  Vec2 linear;         // kg m/s
-  double angular = 0;  // kg m²/s; x × v is the same with the positions at both ends of the step
-};
-
 /// The largest errors of a run.
 struct Errors {
   double impulse = 0;  ///< N s, Σ of the contact force on the left one
@@ -47,14 +44,10 @@ struct Errors {
 };
 
 TriangleMesh meshOf(const Half& half) {
-  Polygon polygon;
   const bool square = half.shape == Shape::kSquare;
-  const int corners = square ? 4 : half.around;
-  const double radius = square ? kSize / std::numbers::sqrt2 : kSize / 2;
-  for (int k = 0; k < corners; ++k) {
-    const double angle = half.turn + 2 * std::numbers::pi * k / corners;
-    polygon.outline.push_back(half.centre + radius * Vec2{std::cos(angle), std::sin(angle)});
-  }
+  const Polygon polygon{circle(half.centre, square ? kSize / std::numbers::sqrt2 : kSize / 2,
+                               square ? 4 : half.around, half.turn),
+                        {}};
   return triangulate(polygon, std::numbers::pi * kSize / half.around);
 }
 
@@ -72,16 +65,6 @@ void add(World& world, const Half& half, const Collision& c) {
   world.addBody(mesh, spec);
 }
 
-Moments moments(const World& world) {
-  Moments sum;
-  const Nodes& nodes = world.model.nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    sum.linear += nodes.mass[i] * nodes.velocity[i];
-    sum.angular += nodes.mass[i] * cross(nodes.position[i], nodes.velocity[i]);
-  }
-  return sum;
-}
-
 /// Until both have moved by their size.
 Errors collide(const Collision& c) {
   World world;
@@ -89,7 +72,7 @@ Errors collide(const Collision& c) {
   add(world, c.left, c);
   add(world, c.right, c);
   const double dt = .8 * world.criticalTimeStep(), until = kSize / norm(c.left.velocity);
-  const Moments before = moments(world);
+  const Moments before = momentsOf(world.model.nodes);
   const double energy = totalEnergy(world);
   Errors worst;
   while (world.time < until) {
@@ -98,7 +81,7 @@ Errors collide(const Collision& c) {
     for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
       if (world.model.nodes.component[i] == ComponentId(0)) force += world.contact.forces()[i];
     worst.impulse += norm(force) * dt;
-    const Moments now = moments(world);
+    const Moments now = momentsOf(world.model.nodes);
     worst.linear = std::max(worst.linear, norm(now.linear - before.linear));
     worst.angular = std::max(worst.angular, std::abs(now.angular - before.angular));
     worst.growth =
@@ -210,6 +193,165 @@ void anyCollisions(bool hasFriction, double angular, int count = 80) {
 TEST(MomentumOfAny, CollisionWithoutFriction) { anyCollisions(false, 2e-5); }
 // In the step in which two surfaces meet, friction acts across the gap that was left.
 TEST(MomentumOfAny, CollisionWithFriction) { anyCollisions(true, 1e-4); }
+
+// --- Rigid boundaries: lines and outlines without elements that bodies touch.
+
+constexpr ElasticMaterial kSoft{1e7, .3, 1000, false};
+
+/// A line from a to b with both sides.
+RigidSpec line(Vec2 a, Vec2 b, double friction = 0) {
+  RigidSpec spec;
+  spec.shape.nodes = {a, b};
+  spec.shape.loops = {{0, 1}};
+  spec.friction = friction;
+  spec.name = "line";
+  return spec;
+}
+
+BodySpec block(const TriangleMesh& mesh, Vec2 velocity, double friction = 0) {
+  BodySpec spec = moving(mesh, kSoft, velocity);
+  spec.friction = friction;
+  return spec;
+}
+
+/// A square of 0.1 m, its lower left corner at `at`, turned by `angle` about that.
+TriangleMesh square(Vec2 at, double angle = 0) {
+  TriangleMesh mesh = structuredRectangle({0, 0}, {.1, .1}, 4, 4);
+  for (Vec2& node : mesh.nodes) node = at + turnedBy(node, angle);
+  return mesh;
+}
+
+Vec2 meanVelocity(const World& world, ComponentId body) {
+  return (1 / mass(world, body)) * test::momentum(world, body);
+}
+
+/// The floor as a line, and as a body of two triangles that are held.
+World drop(bool asBody, double friction, double angle) {
+  World world;
+  const TriangleMesh mesh = square({.013, .001}, angle);
+  world.addBody(mesh, block(mesh, {.5, -1}, friction));
+  if (!asBody) {
+    world.addRigid(line({1, 0}, {-1, 0}, friction));
+    return world;
+  }
+  const TriangleMesh floor = structuredRectangle({-1, -1}, {1, 0}, 1, 1);
+  BodySpec spec = block(floor, {}, friction);
+  hold(spec, floor, kHeldXY, [](Vec2) { return true; });
+  world.addBody(floor, spec);
+  return world;
+}
+
+TEST(Rigid, LineIsAsABodyThatIsHeld) {
+  for (const double angle : {0., .3})
+    for (const double friction : {0., .4}) {
+      World one = drop(false, friction, angle), other = drop(true, friction, angle);
+      // Without the floor's triangles, for they would limit the step.
+      const double dt = .5 * one.criticalTimeStep();
+      ASSERT_LE(dt, other.criticalTimeStep());
+      double apart = 0;
+      std::size_t touched = 0;
+      for (int i = 0; i < 600; ++i) {
+        one.step(dt), other.step(dt);
+        touched += one.contact.rows().size();
+        for (std::size_t n = 0; n < 25; ++n)
+          apart =
+              std::max(apart, norm(one.model.nodes.position[n] - other.model.nodes.position[n]));
+      }
+      EXPECT_GT(touched, 50);
+      EXPECT_LE(apart, 1e-13);  // the same rows, but for rounding along a line that ends elsewhere
+      EXPECT_GT(meanVelocity(one, ComponentId(0)).y, 0);
+    }
+}
+
+TEST(Rigid, HasNoEnergyNoMassAndNoCriticalStep) {
+  World world, alone;
+  const TriangleMesh mesh = square({0, .001});
+  world.addBody(mesh, block(mesh, {0, -1})), alone.addBody(mesh, block(mesh, {0, -1}));
+  world.addRigid(line({.9, 0}, {-.8, 0}));
+  EXPECT_EQ(world.criticalTimeStep(), alone.criticalTimeStep());
+  EXPECT_EQ(world.kineticEnergy(), alone.kineticEnergy());
+  // What the leapfrog's energy changes by where a contact opens or closes.
+  const double before = world.kineticEnergy(), dt = .5 * world.criticalTimeStep();
+  for (int i = 0; i < 400; ++i) {
+    world.rigidVelocities = {{0, .2}, {0, .2}};
+    world.step(dt);
+  }
+  EXPECT_GT(world.ledger.external, .05 * before);  // a floor that comes up works on the block
+  EXPECT_NEAR(totalEnergy(world), before, 1e-4 * before);
+  EXPECT_NEAR(world.model.nodes.position[world.rigidNodes()[0].value].y, .2 * 400 * dt, 1e-15);
+}
+
+TEST(Rigid, BothSidesOfALineTouchAndItsEndsToo) {
+  const double half = std::numbers::pi;
+  for (const double angle : {0., .4}) {
+    // From above, from below, and onto the upper end of an upright line.
+    for (const int how : {0, 1, 2}) {
+      World world;
+      const double sign = how == 1 ? -1 : 1;
+      const TriangleMesh mesh = square({0, sign * .001}, how == 1 ? half + angle : angle);
+      world.addBody(mesh, block(mesh, {0, -sign}));
+      if (how == 2)
+        world.addRigid(line({.04, -.5}, {.04, 0}));
+      else
+        world.addRigid(line({-1, 0}, {1, 0}));
+      const double dt = .5 * world.criticalTimeStep();
+      double deepest = 0;
+      for (int i = 0; i < 600; ++i) {
+        world.step(dt);
+        deepest = std::max(deepest, world.contact.maxPenetration());
+      }
+      if (how == 2 && angle != 0) continue;  // it slides off the tip
+      EXPECT_GT(sign * meanVelocity(world, ComponentId(0)).y, 0) << how << " " << angle;
+      EXPECT_LT(deepest, 2e-7);
+    }
+  }
+}
+
+TEST(Rigid, OverlapIsRefusedAndNothingChanges) {
+  World world;
+  const TriangleMesh mesh = square({0, 0});
+  world.addBody(mesh, block(mesh, {}));
+  EXPECT_THROW(world.addRigid(line({-1, .05}, {1, .05})), InputError);
+  EXPECT_FALSE(world.hasRigid());
+  EXPECT_EQ(world.model.components.size(), 1);
+  EXPECT_THROW(world.addRigid(line({.02, -1}, {.03, 1})), InputError);
+  world.addRigid(line({-1, 0}, {1, 0}));  // along its lower side
+  world.addRigid(line({.1, -1}, {.1, 1}));
+  const TriangleMesh below = square({0, -.05});
+  EXPECT_THROW(world.addBody(below, block(below, {})), InputError);
+  const TriangleMesh beside = square({0, -.1});
+  EXPECT_EQ(world.addBody(beside, block(beside, {})).value, 3);
+  world.replaceRigid(std::vector{line({-1, 0}, {1, 0})}, std::vector{0U, 1U});
+  EXPECT_EQ(world.rigidNodes().size(), 2);
+  world.replaceRigid({}, {});
+  EXPECT_FALSE(world.hasRigid());
+  world.step(.5 * world.criticalTimeStep());
+}
+
+// Made anew, a boundary that is the same keeps what touches it.
+TEST(Rigid, MadeAnewKeepsWhatTouchesIt) {
+  World world = drop(false, .4, 0), other = drop(false, .4, 0);
+  const double dt = .5 * world.criticalTimeStep();
+  std::size_t touched = 0;
+  for (int i = 0; i < 400; ++i) {
+    // The other side first, and one far away: other numbers.
+    if (i % 3 == 0) {
+      const std::vector<std::uint32_t> former =
+          other.rigidNodes().size() == 2 ? std::vector{World::kNoCorner, World::kNoCorner, 0U, 1U}
+                                         : std::vector{World::kNoCorner, World::kNoCorner, 2U, 3U};
+      other.replaceRigid(std::vector{line({1, -9}, {-1, -9}), line({1, 0}, {-1, 0}, .4)}, former);
+    }
+    touched += other.contact.touches.size();
+    world.step(dt), other.step(dt);
+    ASSERT_EQ(world.contact.touches.size(), other.contact.touches.size()) << i;
+    for (std::size_t n = 0; n < 25; ++n)
+      ASSERT_LE(norm(world.model.nodes.position[n] - other.model.nodes.position[n]), 1e-13) << i;
+  }
+  EXPECT_GT(touched, 100);
+  other.replaceRigid({}, {});
+  EXPECT_TRUE(other.contact.touches.empty());
+  EXPECT_EQ(other.model.components.size(), 1);
+}
 
 }  // namespace
 }  // namespace yadefrag::test

@@ -13,12 +13,6 @@
 namespace yadefrag::test {
 namespace {
 
-std::vector<SlaveMaster> activesOf(const World& world) {
-  std::vector<SlaveMaster> pairs;
-  for (const ContactRow& row : world.contact.rows()) pairs.push_back({row.slave, row.master});
-  return pairs;
-}
-
 /// Blocks in a row, fast enough that a step takes a good part of the halo.
 World row(double speed, int passes) {
   World world;

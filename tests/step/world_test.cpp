@@ -7,7 +7,7 @@
 
 #include <sstream>
 
-#include "core/errors.hpp"
+#include "core/sentence.hpp"
 #include "dynamics/element_state.hpp"
 #include "step/run_result.hpp"
 #include "surface/surface_checks.hpp"
@@ -17,17 +17,6 @@ namespace {
 
 TriangleMesh block(Vec2 low, int parts) {
   return structuredRectangle(low, low + Vec2{1, 1}, parts, parts);
-}
-
-template <class Error, class Call>
-std::string sentence(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -41,7 +30,7 @@ TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
   const auto refused = [&](const char* name, const auto& change) {
     BodySpec spec = moving(mesh, rubber(), {0, 0});
     change(spec);
-    const std::string text = sentence<InputError>([&] { world.addBody(mesh, spec); });
+    const std::string text = refusalOf([&] { world.addBody(mesh, spec); });
     EXPECT_TRUE(contains(text, name) && contains(text, "7 values") && contains(text, "16 nodes"))
         << text;
   };
@@ -51,11 +40,11 @@ TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
   refused("smoothNodes", [](BodySpec& spec) { spec.smoothNodes.resize(7); });
   BodySpec mirrored = moving(mesh, rubber(), {0, 0});
   for (const Vec2 node : mesh.nodes) mirrored.displacement.push_back({-2 * node.x, 0});
-  const std::string inside = sentence<InputError>([&] { world.addBody(mesh, mirrored); });
+  const std::string inside = refusalOf([&] { world.addBody(mesh, mirrored); });
   EXPECT_TRUE(contains(inside, "displacement inverts the triangle at (")) << inside;
   TriangleMesh turned = mesh;
   std::swap(turned.triangles[2][0], turned.triangles[2][1]);
-  const std::string text = sentence<InputError>([&] {
+  const std::string text = refusalOf([&] {
     world.addBody(turned, moving(turned, rubber(), {0, 0}));
   });
   EXPECT_TRUE(contains(text, "triangle 2")) << text;
@@ -69,14 +58,12 @@ TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
 
 TEST(WorldBodies, OnlyABodyThatIsThereCanBeRemoved) {
   World world;
-  EXPECT_TRUE(
-      contains(sentence<InputError>([&] { world.removeBody(ComponentId(0UL)); }), "body 0"));
+  EXPECT_TRUE(contains(refusalOf([&] { world.removeBody(ComponentId(0UL)); }), "body 0"));
   const TriangleMesh mesh = block({0, 0}, 3);
   const ComponentId id = world.addBody(mesh, moving(mesh, rubber(), {1, 0}));
-  EXPECT_TRUE(
-      contains(sentence<InputError>([&] { world.removeBody(ComponentId(1UL)); }), "body 1"));
+  EXPECT_TRUE(contains(refusalOf([&] { world.removeBody(ComponentId(1UL)); }), "body 1"));
   world.removeBody(id);
-  EXPECT_TRUE(contains(sentence<InputError>([&] { world.removeBody(id); }), "body 0"));
+  EXPECT_TRUE(contains(refusalOf([&] { world.removeBody(id); }), "body 0"));
   EXPECT_EQ(world.model.nodes.size(), 0U);
   EXPECT_EQ(world.surfaces.entries(), 0U);
 }
@@ -184,7 +171,7 @@ TEST(WorldStep, AboveTheCriticalStepIsRefusedBeforeAnythingChanges) {
   const double critical = world.criticalTimeStep();
   const BodyState before = stateOf(world, ComponentId(1UL));
   for (const double dt : {1.001 * critical, 10 * critical, 0., -critical, double(NAN)}) {
-    const std::string text = sentence<InputError>([&] { world.step(dt); });
+    const std::string text = refusalOf([&] { world.step(dt); });
     EXPECT_TRUE(contains(text, number(dt)) && contains(text, number(critical))) << text;
   }
   EXPECT_EQ(stateOf(world, ComponentId(1UL)), before);
@@ -202,7 +189,7 @@ TEST(WorldStep, AFinerBodyLowersTheLimit) {
   world.step(dt);
   const TriangleMesh fine = block({9, 9}, 20);
   const ComponentId id = world.addBody(fine, moving(fine, rubber(), {0, 0}));
-  EXPECT_TRUE(contains(sentence<InputError>([&] { world.step(dt); }), number(dt)));
+  EXPECT_TRUE(contains(refusalOf([&] { world.step(dt); }), number(dt)));
   EXPECT_EQ(world.steps, 1U);
   world.removeBody(id);
   world.step(dt);
@@ -214,7 +201,7 @@ TEST(WorldStep, MoreViscosityLowersTheLimit) {
   const double dt = .9 * world.criticalTimeStep();
   world.step(dt);
   world.dynamicsSettings.viscosity = {.5, 0};
-  EXPECT_TRUE(contains(sentence<InputError>([&] { world.step(dt); }), number(dt)));
+  EXPECT_TRUE(contains(refusalOf([&] { world.step(dt); }), number(dt)));
   EXPECT_EQ(world.steps, 1U);
   world.dynamicsSettings.viscosity = {.05, 0};
   world.step(dt);
@@ -232,11 +219,7 @@ TEST(WorldStep, AnElementThatCollapsesStopsTheRun) {
   world.addBody(mesh, spec);
   const double dt = .5 * world.criticalTimeStep();
   std::string text;
-  for (int i = 0; i < 1000 && text.empty(); ++i) try {
-      world.step(dt);
-    } catch (const RunError& error) {
-      text = error.what();
-    }
+  for (int i = 0; i < 1000 && text.empty(); ++i) text = saidBy<RunError>([&] { world.step(dt); });
   ASSERT_FALSE(text.empty());
   EXPECT_TRUE(contains(text, "Step " + std::to_string(world.steps))) << text;
   EXPECT_TRUE(contains(text, "element ") && contains(text, "is pressed to")) << text;
@@ -260,7 +243,7 @@ TEST(WorldStep, AForceThatIsNotFiniteStopsTheRun) {
   const std::vector<Vec2> before = world.model.nodes.position;
   world.loads.outerForces.assign(world.model.nodes.size(), {});
   world.loads.outerForces[17].y = NAN;
-  const std::string text = sentence<RunError>([&] { world.step(dt); });
+  const std::string text = saidBy<RunError>([&] { world.step(dt); });
   EXPECT_TRUE(contains(text, "Step 20") && contains(text, "node 17")) << text;
   EXPECT_EQ(world.steps, 20U);
   EXPECT_EQ(world.model.nodes.position, before);

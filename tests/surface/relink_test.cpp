@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/pass_rule.hpp"
-#include "cut_mesh_checks.hpp"
+#include "cut_mesh.hpp"
 #include "meshing/structured.hpp"
 #include "step/entry_pairs.hpp"
 

@@ -38,21 +38,19 @@ else:
 # Only now, because these need FESolver.
 from yadefrag import io, plots, studies  # noqa: E402
 from yadefrag.about import about  # noqa: E402
-from yadefrag.calls import inWords  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
 from yadefrag.fe.geometry import circle, rectangle, ring  # noqa: E402
 from yadefrag.fe.grains import grainJoints, voronoi  # noqa: E402
-from yadefrag.fe.mesh import Mesh, rectangleMesh  # noqa: E402
-from yadefrag.fe.meshing import polygonMesh  # noqa: E402
+from yadefrag.fe.mesh import Mesh, polygonMesh, rectangleMesh
 from yadefrag.fe.results import crackTable  # noqa: E402
 from yadefrag.fe.snapping import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
+from yadefrag.messages import inWords  # noqa: E402
 from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
 from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
-from yadefrag.scene import attributes, colliders, lifecycle, mpy  # noqa: E402
-from yadefrag.scene.curve_order import inCurveOrder  # noqa: E402
-from yadefrag.scene.engines import engines  # noqa: E402
-from yadefrag.scene.progress import runSteps  # noqa: E402
+from yadefrag.scene import attributes, lifecycle, mpy  # noqa: E402
+from yadefrag.scene.engines import engines, inCurveOrder, installColliders
+from yadefrag.scene.lifecycle import runSteps  # noqa: E402
 from yadefrag.studies import EnsembleTable, TradeoffTable, ensemble, tradeoff  # noqa: E402
 
 
@@ -71,7 +69,7 @@ def _renewDispatchers():
 solver.install()
 lifecycle.install()
 mpy.install()
-colliders.install([name for name in __all__ if name.endswith('Collider')])
+installColliders([name for name in __all__ if name.endswith('Collider')])
 _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)

@@ -1,4 +1,4 @@
-"""Values from a script: accepted numbers, and the text of a refused value in messages.
+"""Values from a script: accepted numbers, and the text of a refused value in messages; names for the types of arguments.
 
 NumPy's numbers are accepted: scalars of any width, and arrays of dimension 0.
 """
@@ -15,9 +15,19 @@ from collections.abc import Callable
 from typing import Any, NoReturn
 
 import numpy
+from numpy.typing import ArrayLike
 
+from yade.wrapper import FEMat, FESolver  # noqa: F401 (hints of other modules)
+from yadefrag._yadefrag import Mesh  # noqa: F401
+
+File = str | os.PathLike[str]
+Loop = list[tuple[float, float]]  # points (x, y) in m
+Shape = tuple[Loop, list[Loop]]  # an outline and its holes
+ByPlace = Callable[[float, float], Any]  # a function of (x, y) in m
+Nodes = ArrayLike | ByPlace  # numbers or flags, a function that selects nodes, or a body's name
 LONGEST = 80  # characters of a value in a sentence
 MOST_BYTES = 255  # of a file's name without its folder, on Linux
+_NO_LISTS = (str, bytes, dict, set)
 
 
 class _Short(reprlib.Repr):
@@ -131,7 +141,7 @@ def flag(name: str, value: object) -> bool:
 
 def numbersOf(value: Any, count: int) -> tuple[float, ...] | None:
     """A tuple of `count` floats, finite or not; None for other values."""
-    if isinstance(value, (str, bytes, dict, set)):
+    if isinstance(value, _NO_LISTS):
         return None
     try:
         found = [real(one) for one in itertools.islice(value, count + 1)]
@@ -165,6 +175,16 @@ def pointsOf(name: str, value: object, least: int) -> numpy.ndarray:
     return found
 
 
+def listOf(name: str, value: Any, right: str) -> list[Any]:
+    """A list, of the elements of anything but a text or what has no order."""
+    try:
+        if not isinstance(value, _NO_LISTS):
+            return list(value)
+    except TypeError:
+        pass
+    refuse(name, value, right)
+
+
 def array(value: Any, dtype: Any = None) -> numpy.ndarray | None:
     """A NumPy array; None if that is impossible, e.g. for rows of different lengths."""
     try:
@@ -179,7 +199,7 @@ def _pairs(value):
     """(n, 2) floats; None if it is not a list of pairs of numbers."""
     if isinstance(value, numpy.ndarray) and value.dtype.kind in 'iuf':
         return value.astype(float) if value.ndim == 2 and value.shape[1] == 2 else None
-    if isinstance(value, (str, bytes, dict, set)):
+    if isinstance(value, _NO_LISTS):
         return None
     try:
         pairs = [numbersOf(one, 2) for one in value]

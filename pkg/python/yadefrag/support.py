@@ -29,29 +29,18 @@ def describeMismatch(version: str, precision: str, features: Collection[str]) ->
 
     All three as in yade.config: `version`, `highPrecisionName`, `features` (strings, list of str).
     """
-    found, needed = [], []
-    if version != VERSION:
-        found.append('version %s' % version)
-        needed.append('version %s' % VERSION)
-    if precision != PRECISION:
-        found.append('numbers of %s' % precision)
-        needed.append('numbers of %s' % PRECISION)
+    wrong = [('%s%s' % (what, found), '%s%s' % (what, needed)) for what, found, needed in (
+        ('version ', version, VERSION), ('numbers of ', precision, PRECISION)) if found != needed]
     expected: Collection[str] = NEEDED
     unexpected: Collection[str] = REFUSED
     if FEATURES is not None:
         expected, unexpected = FEATURES, sorted(set(features) - set(FEATURES))
-    for feature in expected:
-        if feature not in features:
-            found.append('no %s' % feature)
-            needed.append('%s' % feature)
-    for feature in unexpected:
-        if feature in features:
-            found.append('%s' % feature)
-            needed.append('no %s' % feature)
-    if found:
+    wrong += [('no ' + one, one) for one in expected if one not in features]
+    wrong += [(one, 'no ' + one) for one in unexpected if one in features]
+    if wrong:
+        found, needed = map(', '.join, zip(*wrong))
         return ('this build of yadefrag needs YADE %s as %s, with %s; the running yade '
-                'has %s%s.' % (VERSION, _built.BUILD, ', '.join(needed), ', '.join(found),
-                               describeRemedy(version)))
+                'has %s%s.' % (VERSION, _built.BUILD, needed, found, describeRemedy(version)))
     return describeUntried(version)
 
 

@@ -34,14 +34,6 @@ def separatePairs(rng):
         addSpheres([home, home + 2.2 * aim + miss], [1, 1], [40 * aim, -40 * aim], dynamic=True)
 
 
-def testTwoBodyCollisions(collider):
-    expected, found = run(collider.rival, separatePairs, 300), run(collider, separatePairs, 300)
-    assert [set(h) for h in expected[0]] == [set(h) for h in found[0]]
-    assert expected[0] == found[0]
-    assert (expected[1] == found[1]).all()
-    assert max(map(len, expected[0])) > 20
-
-
 def sphereOnFloor(rng):
     """Spheres dropped one by one on a facet floor, walls and a box: one contact each."""
     O.dt = 1e-4
@@ -52,8 +44,9 @@ def sphereOnFloor(rng):
     addSpheres(centres, [1] * len(centres), [(0, 0, -20.)] * len(centres), dynamic=True)
 
 
-def testSpheresOnFloors(collider):
-    expected, found = run(collider.rival, sphereOnFloor, 300), run(collider, sphereOnFloor, 300)
+@pytest.mark.parametrize('build', [separatePairs, sphereOnFloor], ids=lambda f: f.__name__)
+def testContactsOfOneTerm(collider, build):
+    expected, found = run(collider.rival, build, 300), run(collider, build, 300)
     assert expected[0] == found[0]
     assert (expected[1] == found[1]).all()
     assert max(map(len, expected[0])) > 20

@@ -1,10 +1,14 @@
 """A collider in a script: probed, timed, replaced, its attributes, how often it searches."""
+import builtins
+import functools
+
 import numpy as np
 import pytest
 
 import scenes
-from scenes import O, addSpheres, gas, listed, setEngines, stepAndCheck, theCollider
+from scenes import O, addSpheres, clear, gas, listed, setEngines, stepAndCheck, theCollider
 import yade.wrapper as w
+import yadefrag
 from yade import timing, utils
 from yade.minieigenHP import Vector3
 
@@ -128,34 +132,9 @@ def testAttributeNames(collider):
     assert engine.verletDist == .25
 
 
-def testUnknownKeyword(collider):
-    with pytest.raises(AttributeError):
-        collider(noSuchAttribute=1)
-    with pytest.raises(AttributeError):
-        collider().updateAttrs({'noSuchAttribute': 1})
-
-
-def testWrongArguments(collider):
-    cls = type(collider())
-    with pytest.raises(Exception):
-        cls([w.Bo1_Sphere_Aabb()], [w.Bo1_Facet_Aabb()])
-    with pytest.raises(Exception):
-        cls([w.NewtonIntegrator()])
-    with pytest.raises(Exception):
-        collider(verletDist='far')
-
-
-def testKnownToYade(collider):
-    assert O.isChildClassOf(collider.name, 'Collider')
-    assert isinstance(collider(), w.Collider)
-    assert type(collider()).__name__ == collider.name
-    assert getattr(w, collider.name) is type(collider())
-    assert collider.name in repr(collider()) or collider.name in str(type(collider()))
-
-
 def testNumActionCountsStrides(collider):
     def actions(verletDist):
-        scenes.clear()
+        clear()
         engine = gas(collider, verletDist=verletDist, targetInterv=0)
         stepAndCheck(steps=60)
         return engine.numAction
@@ -229,8 +208,109 @@ def testDeadCollider(collider):
     assert stepAndCheck(steps=5)
 
 
-def testLabelAndTypedEngine(collider):
-    import builtins
-    setEngines(collider(label='theOne'))
+# --- as YADE's own: dumpBounds() and typedEngine('InsertionSortCollider')
+
+def dumped(engine, periodic):
+    clear()
+    O.periodic = periodic
+    if periodic:
+        O.cell.setBox(3., 4., 5.)
+    rng = np.random.default_rng(3)
+    addSpheres(rng.uniform(-6, 6, (40, 3)), rng.uniform(.2, .4, 40), np.zeros((40, 3)), dynamic=False)
+    O.bodies.append(w.Body())  # without a bound
+    O.bodies[-1].state.pos, O.bodies[-1].dynamic = (1, 2, 3), False
+    setEngines(engine)
+    O.dt = 1e-9
+    before = engine.dumpBounds()
+    O.step()
+    return before, engine.dumpBounds()
+
+
+@pytest.mark.parametrize('periodic', [False, True])
+def test_dumpedAsByYade(collider, periodic):
+    """With bounds that are not enlarged, the same numbers."""
+    expected = dumped(w.InsertionSortCollider([w.Bo1_Sphere_Aabb()], verletDist=0), periodic)
+    found = dumped(collider(verletDist=0), periodic)
+    assert found[0] == expected[0] == ([], [], [])
+    assert isinstance(found[1], tuple) and [len(axis) for axis in found[1]] == [82] * 3
+    for mine, yades in zip(found[1], expected[1]):
+        assert all(type(one) is tuple and list(map(type, one)) == list(map(type, two))
+                   for one, two in zip(mine, yades))
+        assert [one[0] for one in mine] == pytest.approx([two[0] for two in yades], abs=1e-12)
+        assert sorted(one[1:] for one in mine) == sorted(two[1:] for two in yades)
+
+
+def test_erasedBodiesAreLeftOut(collider):
+    engine = collider()
+    dumped(engine, False)
+    O.bodies.erase(7)
+    O.step()
+    assert all(len(axis) == 80 and all(abs(one[1]) != 7 for one in axis) for axis in engine.dumpBounds())
+
+
+def test_foundByTheNameOfYadesCollider(collider):
+    engine = collider(label='theOne')
+    clear()
+    setEngines(engine)
     assert builtins.theOne.label == 'theOne'
-    assert utils.typedEngine(collider.name).label == 'theOne'
+    assert utils.typedEngine('InsertionSortCollider') == engine == utils.typedEngine(type(engine).__name__)
+    assert type(utils.typedEngine('NewtonIntegrator')) is w.NewtonIntegrator
+    with pytest.raises(IndexError):
+        utils.typedEngine('GravityEngine')
+    rival = w.InsertionSortCollider()
+    O.engines = [engine, rival]
+    assert utils.typedEngine('InsertionSortCollider') == rival  # if there is one
+
+
+# --- inCurveOrder returns a permutation, in the order of the Lebesgue curve
+
+def _later(a, b):
+    """Of two cells (three whole numbers each): -1, 0, 1 as a comes before b on the curve. The axis
+    whose coordinates differ in the highest bit decides; of equal bits, z before y before x."""
+    best, axis = 0, 2
+    for k in (2, 1, 0):
+        bit = (int(a[k]) ^ int(b[k])).bit_length()
+        if bit > best:
+            best, axis = bit, k
+    return (a[axis] > b[axis]) - (a[axis] < b[axis])
+
+
+def _cells(places):
+    places = np.asarray(places, float)
+    low = places.min(axis=0)
+    return np.floor((places - low) * ((2**21 - 1) / (places.max(axis=0) - low).max())).astype(int)
+
+
+@pytest.mark.parametrize('flat', [None, 0, 2])
+def testBodiesAreAPermutationInCurveOrder(flat):
+    clear()
+    rng = np.random.default_rng(1)
+    places = rng.normal(size=(500, 3)) * [1, 10, .1] + [1e3, 0, -5]
+    if flat is not None:
+        places[:, flat] = 3
+    bodies = [utils.sphere(p, .1) for p in places]
+    ordered = yadefrag.inCurveOrder(bodies)
+    assert sorted(map(id, ordered)) == sorted(map(id, bodies))
+    assert len(O.bodies) == 0
+    found = _cells([b.state.pos for b in ordered])
+    expected = sorted(_cells(places).tolist(), key=functools.cmp_to_key(_later))
+    assert found.tolist() == expected
+    assert [tuple(p) for p in yadefrag.inCurveOrder(places)] == \
+        [tuple(b.state.pos) for b in ordered]
+
+
+def testNeighboursOnTheCurveAreNear():
+    """Mean distance of consecutive bodies: of the order of their spacing, not of the box."""
+    rng = np.random.default_rng(2)
+    places = rng.uniform(0, 1, (8000, 3))
+    ordered = np.array(yadefrag.inCurveOrder(places))
+    step = np.linalg.norm(np.diff(ordered, axis=0), axis=1)
+    assert step.mean() < 3 * 8000**(-1 / 3)
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).mean() > 10 * 8000**(-1 / 3)
+
+
+def testPlacesWithRadiiAndEqualPlaces():
+    pairs = [((0, 0, 0), .1), ((1, 1, 1), .2), ((0, 0, 0), .3), ((1, 0, 0), .4)]
+    assert yadefrag.inCurveOrder(pairs) == [pairs[0], pairs[2], pairs[3], pairs[1]]
+    assert yadefrag.inCurveOrder(iter([(2, 2, 2)])) == [(2, 2, 2)]
+    assert yadefrag.inCurveOrder([]) == []

@@ -42,19 +42,14 @@ def run(collider, periodic, **attributes):
 
 
 @pytest.mark.parametrize('periodic', [False, True], ids=['open', 'periodic'])
-def testTwice(collider, periodic):
-    first, second = run(collider, periodic), run(collider, periodic)
-    assert first == second
-    assert len(first[0][-1]) > 50
-
-
-@pytest.mark.parametrize('periodic', [False, True], ids=['open', 'periodic'])
-def testRealOnesAsTheRivals(collider, periodic):
-    """The list that YADE has stored for its own collider is of these real interactions."""
+def testTwiceAndAsTheRivals(collider, periodic):
+    """The list that YADE has stored for its own collider is of the real interactions."""
     def real(history):
         return [sorted((*sorted(i[:2]), i[3] if i[0] < i[1] else tuple(-c for c in i[3]))
                        for i in moment if i[2]) for moment in history[0]]
-    assert real(run(collider, periodic)) == real(run(collider.rival, periodic))
+    first, second = run(collider, periodic), run(collider, periodic)
+    assert first == second and len(first[0][-1]) > 50
+    assert real(first) == real(run(collider.rival, periodic))
 
 
 def testAfterReload(collider):

@@ -1,4 +1,5 @@
-"""Bodies other than spheres: the real contacts that YADE's collider has when it runs every step."""
+"""Bodies other than spheres: the real contacts that YADE's collider has when it runs every step. Other shapes, and those of
+facets and boxes at random places: test_every_shape.py, test_funnel.py."""
 import math
 
 import numpy as np
@@ -8,7 +9,7 @@ import scenes
 from scenes import O, addSpheres, setEngines
 import yade.wrapper as w
 from yade import utils
-from yade.minieigenHP import Quaternion, Vector3
+from yade.minieigenHP import Vector3
 
 kSteps = 30
 
@@ -40,28 +41,12 @@ def flying(rng, n=80, speed=.02, radius=.05):
                rng.normal(size=(n, 3)) * speed)
 
 
-def facets(rng):
-    flying(rng)
-    for _ in range(25):
-        corner = rng.uniform(0, 1, 3)
-        points = [Vector3(*(corner + rng.uniform(-.2, .2, 3))) for _ in range(3)]
-        O.bodies.append(utils.facet(points, fixed=True))
-
-
 def flatFacets(rng):
     """Boxes of no thickness, all in one plane, on the border of one another."""
     flying(rng)
     for x in np.arange(0, 1, .25):
         for y in np.arange(0, 1, .25):
             O.bodies.append(utils.facet([(x, y, .5), (x + .25, y, .5), (x, y + .25, .5)]))
-
-
-def boxes(rng):
-    flying(rng)
-    for _ in range(15):
-        angle = rng.uniform(0, math.pi)
-        O.bodies.append(utils.box(Vector3(*rng.uniform(0, 1, 3)), Vector3(*rng.uniform(.01, .2, 3)),
-                                  Quaternion(Vector3(*rng.normal(size=3)), angle), fixed=True))
 
 
 def walls(rng):
@@ -95,7 +80,7 @@ def movingWalls(rng):
         body.state.vel = Vector3(*v)
 
 
-@pytest.mark.parametrize('build', [facets, flatFacets, boxes, walls, hugeFloor, movingWalls],
+@pytest.mark.parametrize('build', [flatFacets, walls, hugeFloor, movingWalls],
                          ids=lambda f: f.__name__)
 @pytest.mark.parametrize('verletDist', [-.5, 0, .1])
 def testShapes(collider, build, verletDist):
@@ -113,76 +98,6 @@ def testWallsDoNotMeetEachOther(collider):
     for _ in range(5):
         O.step()
     assert all(math.isfinite(x) for x in O.bodies[3].state.pos)
-
-
-def polyhedra(rng):
-    """Convex bodies that fly through each other; no law, so that contacts end with the geometry."""
-    from yade import polyhedra_utils
-    material = w.PolyhedraMat(density=1000, young=1e5, poisson=.3, frictionAngle=.5)
-    O.materials.append(material)
-    for k in range(40):
-        # corners given: with a seed alone YADE makes another body each time
-        body = polyhedra_utils.polyhedra(
-            material, v=[Vector3(*x) for x in rng.uniform(-.12, .12, (10, 3))])
-        body.state.ori = Quaternion(Vector3(0, 0, 1), float(rng.uniform(0, 3)))
-        body.state.pos = Vector3(*rng.uniform(0, 1, 3))
-        body.state.vel = Vector3(*(rng.normal(size=3) * .02))
-        body.state.blockedDOFs = 'xyzXYZ'
-        O.bodies.append(body)
-    O.bodies.append(utils.wall(.5, axis=2, material=material))
-    return dict(
-        functors=[w.Bo1_Polyhedra_Aabb(), w.Bo1_Wall_Aabb()],
-        interactionLoop=w.InteractionLoop(
-            [w.Ig2_Polyhedra_Polyhedra_PolyhedraGeom(), w.Ig2_Wall_Polyhedra_PolyhedraGeom()],
-            [w.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
-            [w.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()]))
-
-
-@pytest.mark.skipif(not hasattr(w, 'Bo1_Polyhedra_Aabb'), reason='this YADE has no polyhedra')
-def testPolyhedra(collider):
-    sameContacts(collider, polyhedra)
-
-
-def grids(rng):
-    """Nodes, connections and PFacets, with spheres flying through."""
-    from yade import gridpfacet
-    interactionLoop = gridLoop()
-    O.engines = [interactionLoop]       # the creators make their interactions through it
-    O.materials.append(w.CohFrictMat(young=1e5, poisson=.3, density=1e3, label='node'))
-    O.materials.append(w.FrictMat(young=1e5, poisson=.3, density=1e3, label='outer'))
-    for k in range(4):
-        low = rng.uniform(.1, .6, 3)
-        corners = [low, low + [.3, 0, .1], low + [0, .3, 0]]
-        gridpfacet.pfacetCreator1([Vector3(*c) for c in corners], .02, fixed=True,
-                                  materialNodes='node', material='outer',
-                                  nodesIds=[], cylIds=[], pfIds=[])
-    for k in range(3):
-        nodes = [O.bodies.append(gridpfacet.gridNode(Vector3(*rng.uniform(0, 1, 3)), .03,
-                                                     fixed=True, material='node'))
-                 for _ in range(2)]
-        O.bodies.append(gridpfacet.gridConnection(*nodes, .03, material='outer'))
-    addSpheres(rng.uniform(0, 1, (60, 3)), [.03] * 60, rng.normal(size=(60, 3)) * .01,
-               material='outer')
-    return dict(functors=[w.Bo1_Sphere_Aabb(), w.Bo1_GridConnection_Aabb(), w.Bo1_PFacet_Aabb()],
-                interactionLoop=interactionLoop)
-
-
-def gridLoop():
-    return w.InteractionLoop(
-        [w.Ig2_GridNode_GridNode_GridNodeGeom6D(), w.Ig2_Sphere_GridConnection_ScGridCoGeom(),
-         w.Ig2_Sphere_PFacet_ScGridCoGeom(), w.Ig2_GridConnection_GridConnection_GridCoGridCoGeom(),
-         w.Ig2_Sphere_Sphere_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys(),
-         w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True,
-                                                    setCohesionOnNewContacts=False)],
-        [w.Law2_ScGeom_FrictPhys_CundallStrack(), w.Law2_ScGridCoGeom_FrictPhys_CundallStrack(),
-         w.Law2_GridCoGridCoGeom_FrictPhys_CundallStrack(),
-         w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()])
-
-
-@pytest.mark.skipif(not hasattr(w, 'Bo1_PFacet_Aabb'), reason='this YADE has no PFacets')
-def testGrids(collider):
-    sameContacts(collider, grids)
 
 
 @pytest.mark.rivalFails('its strides see only positions, not rotation')

@@ -1,4 +1,4 @@
-"""yade -j1 and -j2: the same interactions in the same order, and the same positions."""
+"""yade -j1, -j2, -j3: collider, loop and integrator give the same interactions in the same order, and the same motion."""
 import functools
 import json
 import os
@@ -9,14 +9,13 @@ import pytest
 from project import yadeCommand
 
 kHere = os.path.dirname(os.path.abspath(__file__))
-
-
-kScenes = 'gas', 'mixed', 'periodic'
+# Scenes of threads_scene.py: the least number of interactions, or of contacts where bodies are stirred.
+kScenes = dict(gas=500, mixed=500, periodic=500, stirred=1600, NewtonIntegrator=0, CurveIntegrator=0)
 
 
 @functools.cache
-def dump(name, threads, scenes=kScenes):
-    """What threads_scene.py prints: {scene: {'interactions': [...], 'positions': [...]} per moment}."""
+def dump(name, threads, scenes=tuple(kScenes)):
+    """What threads_scene.py prints: {scene: {'threads': number, 'moments': [{'interactions': number, 'bits': text}]}}."""
     done = subprocess.run(
         yadeCommand() + [f'-j{threads}', os.path.join(kHere, 'threads_scene.py'), name, *scenes],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600)
@@ -28,12 +27,16 @@ def dump(name, threads, scenes=kScenes):
 @pytest.mark.rivalFails('its parallel sort makes interactions in another order')
 @pytest.mark.parametrize('scene', kScenes)
 def testThreads(collider, scene):
-    one, two = (dump(collider.name, threads)[scene] for threads in (1, 2))
-    assert two['threads'] == 2
-    for a, b in zip(one['moments'], two['moments']):
-        assert a['interactions'] == b['interactions']
-        assert a['positions'] == b['positions']
-    assert len(one['moments'][-1]['interactions']) > 500
+    one, two, three = (dump(collider.name, threads)[scene] for threads in (1, 2, 3))
+    assert [found['threads'] for found in (one, two, three)] == [1, 2, 3]
+    assert one['moments'] == two['moments'] == three['moments']
+    counts = [moment['contacts' if scene == 'stirred' else 'interactions'] for moment in one['moments']]
+    assert min(counts) >= kScenes[scene]
+
+
+def testIntegratorsAgree(collider):
+    found = dump(collider.name, 1)
+    assert found['NewtonIntegrator']['moments'] == found['CurveIntegrator']['moments']
 
 
 def testTwoProcesses(collider):

@@ -4,7 +4,6 @@ the long tests."""
 import json
 import os
 import subprocess
-import sys
 import tempfile
 from xml.etree import ElementTree
 
@@ -20,6 +19,7 @@ kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
 # checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
+# checkVTKRecorder.py compares interactions in the order of YADE's collider (testRecordedContacts stands for it);
 # YADE itself skips checkCapillaryEngineStandalone.py, which fails with its own collider, and
 # DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step, and
 # checkPolyhedraDrum.py.
@@ -29,7 +29,7 @@ kQuickChecks = [
     'checkGravity.py', 'checkGravityRungeKuttaCashKarp54.py', 'checkHertzExtended.py',
     'checkLiquidMigration.py', 'checkLubrication.py', 'checkLubricationWithRoughness.py',
     'checkPolyhedraCrush.py', 'checkPotentialParticles.py', 'checkPotentialVTKRecorders.py',
-    'checkTestTriax.py', 'checkVTKRecorder.py', 'checkViscElEng.py', 'checkViscElPM.py',
+    'checkTestTriax.py', 'checkViscElEng.py', 'checkViscElPM.py',
     'checkViscElPM2.py', 'checkWeight.py', 'checkWirePM.py',
     # of YADE 2025.2.0
     'checkCohesiveFrictionalLaw.py', 'checkKineticEnergy.py', 'checkMultiScGeom.py',
@@ -56,9 +56,6 @@ kNoCollider = {'checkAlpha.py', 'checkShapeVolume.py', 'checkTestDummy.py', 'che
 # The collider is never among O.engines in a run: called by hand, or inside an integrator.
 kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py',
           'checkGravityRungeKuttaCashKarp54.py'}
-# From YADE 2025.2.0 on, it compares the recorded interactions one by one in the order of YADE's collider;
-# testRecordedContacts stands for it.
-kYadesOrder = 'checkVTKRecorder.py'
 kFoundChecks = {'checkTestTriax.py'}    # here the collider comes out of C++, not by name
 
 kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines',
@@ -99,8 +96,6 @@ def checkResult(collider, result):
 def reasonToSkip(script):
     if not os.path.exists(os.path.join(kCheckFolder, script)):
         return f'this YADE has no {script}'
-    if script == kYadesOrder and not yade.config.version.startswith('2023.'):
-        return "it compares the interactions in the order of YADE's collider"
     needed = kNeeds.get(script)
     return needed and needed not in yade.config.features and f'this YADE is built without {needed}'
 

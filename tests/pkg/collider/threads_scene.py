@@ -1,4 +1,5 @@
-"""A scene run and dumped with full precision, for test_threads.py: CLASS gas|mixed|periodic...; each scene a line of JSON."""
+"""Scenes for test_threads.py: `yade -jN threads_scene.py COLLIDER SCENE...` prints a line of JSON with the bits of each."""
+import hashlib
 import json
 import os
 import sys
@@ -9,12 +10,15 @@ sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
 import numpy as np
 
 import scenes
+import yadefrag  # noqa: F401  adds CurveLoop
+from heaps import packing
+from scenes import O, w
 from yade import utils
 from yade.minieigenHP import Vector3
 
 
-def build(kind):
-    """1500 moving spheres in a unit box; `mixed` adds facets, a box and a wall."""
+def gas(collider, kind):
+    """1500 moving spheres in a unit box; `mixed` adds facets, a box and a wall. Bodies come and go."""
     rng = np.random.default_rng(1)
     if kind == 'periodic':
         O.periodic = True
@@ -30,27 +34,50 @@ def build(kind):
         O.bodies.append(utils.box((.5, .5, 0), (1, 1, .02), fixed=True))
         O.bodies.append(utils.wall(1, axis=1))
     O.dt = 1
-
-
-def moment():
-    return dict(
-        interactions=[(i.id1, i.id2, i.isReal, *i.cellDist) for i in O.interactions.all()],
-        positions=[tuple(map(repr, b.state.pos)) for b in O.bodies])
-
-
-def main(name, kind):
-    scenes.clear()
-    build(kind)
-    scenes.setEngines(scenes.makeCollider(name))
-    moments = []
-    for steps in (1, 1, 8, 10):
+    scenes.setEngines(collider)
+    for number, steps in enumerate((1, 1, 8, 10), 1):
         O.run(steps, True)
-        moments.append(moment())
-        for k in range(40):     # bodies come and go, too
-            O.bodies.erase(int(k * 31 + len(moments)))
-        scenes.addSpheres(np.random.default_rng(len(moments)).uniform(0, 1, (40, 3)), [.02] * 40)
-    print('\n@@@ ' + json.dumps(dict(threads=O.numThreads, moments=moments)), flush=True)
+        yield moment()
+        for k in range(40):
+            O.bodies.erase(int(k * 31 + number))
+        scenes.addSpheres(np.random.default_rng(number).uniform(0, 1, (40, 3)), [.02] * 40)
 
 
-for kind in sys.argv[2:]:
-    main(sys.argv[1], kind)
+def stirred(collider, _):
+    """CurveLoop: contacts go and come, and so do bodies, for which rows are made."""
+    packing((12, 12, 8), .97, 1e-4, isTurning=True)
+    loop = w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                       [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+    scenes.setEngines(collider, interactionLoop=loop)
+    for number, steps in enumerate((1, 1, 60, 60), 1):
+        O.run(steps, True)
+        assert loop.threads == O.numThreads
+        yield moment(hasForces=True)
+        O.bodies.erase(5 * steps)
+        scenes.addSpheres([(6, 6, 10 + 2 * number)], [.5], dynamic=True)
+
+
+def falling(_, integrator):
+    """Without contacts, with YADE's integrator or ours."""
+    packing((12, 12, 16), 1.2, 1e-3, isTurning=True)
+    O.engines = [w.ForceResetter(), getattr(w, integrator)(gravity=(0, 0, -9), damping=.2)]
+    O.run(100, True)
+    yield moment()
+
+
+def moment(hasForces=False):
+    """Forces are summed in the order of threads by YADE's own loop."""
+    interactions = [(i.id1, i.id2, i.isReal, *i.cellDist) for i in O.interactions.all()]
+    rows = [[*b.state.pos, *b.state.vel, *b.state.angVel, *b.state.ori,
+             *(hasForces and [*O.forces.f(b.id), *O.forces.t(b.id)] or [])] for b in O.bodies if b]
+    return dict(interactions=len(interactions), contacts=O.interactions.countReal(), bits=hashlib.sha256(
+        repr(interactions).encode() + np.array(rows, float).tobytes()).hexdigest())
+
+
+kScenes = dict(gas=gas, mixed=gas, periodic=gas, stirred=stirred, NewtonIntegrator=falling, CurveIntegrator=falling)
+
+if __name__ == '__main__':
+    for kind in sys.argv[2:]:
+        scenes.clear()
+        moments = list(kScenes[kind](scenes.makeCollider(sys.argv[1]), kind))
+        print('\n@@@ ' + json.dumps(dict(threads=O.numThreads, moments=moments)), flush=True)

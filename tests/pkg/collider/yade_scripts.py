@@ -4,7 +4,6 @@ One line of JSON per script, after '@@@ '. Works in the current directory, which
 temporary one. A module of its own, so that no script can overwrite a name in it.
 """
 import builtins
-import io
 import json
 import os
 import random
@@ -57,32 +56,12 @@ def execute(path, scope):
     return None
 
 
-def openUnordered(path, *arguments, **keywords):
-    """open(), but the interactions in a .vtp file come with each array's numbers sorted:
-    VTKRecorder writes them in the order of the container, which is a collider's own affair."""
-    file = open(path, *arguments, **keywords)
-    if not str(path).endswith('.vtp') or not file.readable():
-        return file
-    lines, numbers = [], []
-    with file:
-        for line in file:
-            try:
-                numbers += [float(x) for x in line.split()]
-                continue
-            except ValueError:
-                pass
-            lines += [f'{x!r}\n' for x in sorted(numbers)] + [line]
-            numbers = []
-    return io.StringIO(''.join(lines))
-
-
 def runChecks(swap, names, scope):
     for name in names:
         O.reset()
         O.engines = yade.utils.defaultEngines
         started, before = clock.time(), dict(swap.count)
-        scope.update(checksPath=kYadeTests + '/checks', YadeCheckError=YadeCheckError,
-                     open=openUnordered if name == 'checkVTKRecorder.py' else open)
+        scope.update(checksPath=kYadeTests + '/checks', YadeCheckError=YadeCheckError)
         error = execute(f'{kYadeTests}/checks/{name}', scope)
         report(name, swap, before, started, error=error)
 

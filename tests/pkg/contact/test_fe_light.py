@@ -2,13 +2,12 @@
 energy within the step, whatever their masses."""
 import builtins
 import math
-import os
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, run, steps
+from fe_scene import fe, kineticEnergy, momentum, run, steps
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Quaternion, Vector3
@@ -49,17 +48,10 @@ class Balance:
         self.total = solver.energy['total']
 
     def rigidEnergy(self):
-        return sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
-                   for b in self.rigid)
+        return kineticEnergy(*self.rigid)
 
     def momenta(self):
-        m, x, v = self.solver.masses, self.solver.nodes, self.solver.velocities
-        total = np.append((m[:, None] * v).sum(axis=0), (m * (x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0])).sum())
-        for b in self.rigid:
-            s = b.state
-            total += [s.mass * s.vel[0], s.mass * s.vel[1],
-                      s.mass * (s.pos[0] * s.vel[1] - s.pos[1] * s.vel[0]) + s.inertia[2] * s.angVel[2]]
-        return total
+        return np.append(*momentum(self.solver, self.rigid))
 
     def check(self, exchanged, energy=1e-3, angular=1e-9, axes=(0, 1, 2), friction=1e-6):
         """What the rigid bodies lose is what the FE bodies get. `exchanged`: kg m/s; `angular`: of that times 1 m,
@@ -258,28 +250,6 @@ def test_boxComesToRestUnderItsWeight():
     assert abs(body.state.pos[1] - place) < 1e-9 and body.state.vel.norm() < 1e-6
     assert O.forces.f(body.id)[1] == pytest.approx(.05 * 9.81, rel=1e-4)
     assert solver.warnings == []
-
-
-def test_savedAndRefusedStepsGoOnWithTheSameBits(folder):
-    solver = fe()
-    blockOf(solver)
-    body = box((-.061, .08), (.06, .04), mass=.3, velocity=(1, 0), turning=2)
-    run(solver)
-    steps(int(.004 / O.dt))
-    O.save(os.path.join(folder, 'box.yade'))
-    engines = O.engines
-    fair = O.dt
-    O.dt = 2 * solver.criticalTimeStep()
-    with pytest.raises(ValueError):
-        O.step()
-    O.dt, O.engines = fair, engines
-    steps(200)
-    nodes, place = solver.nodes, (*body.state.pos, body.state.angVel[2])
-    O.load(os.path.join(folder, 'box.yade'))
-    steps(200)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    body = [b for b in O.bodies if isinstance(b.shape, w.Box)][0]
-    assert (solver.nodes == nodes).all() and (*body.state.pos, body.state.angVel[2]) == place
 
 
 def test_bodyThatStopsToObeyForcesIsHeld():

@@ -9,7 +9,7 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, impact, run, steps
+from fe_scene import fe, finder, impact, run, steps, throwBall
 from yade import wrapper as w
 
 O = builtins.O
@@ -22,11 +22,7 @@ def course(seed, folder=None):
     random, moments = Random(seed), Random(seed + 1)
     solver = impact(random.choice(['LebesgueCollider', 'InsertionSortCollider']),
                     smooth=random.choice([False, True]))
-    ball = chain.ball((.15, .151), .05, O.materials['m'])
-    ball.state.vel = (0, -1, 0)
-    ball.state.blockedDOFs = 'zXY'
-    ball.mask = random.choice([1, 2])
-    O.bodies.append(ball)
+    throwBall((.15, .151), .05, (0, -1)).mask = random.choice([1, 2])
     run(solver, O.engines[1], spheres=True, factor=.5)
     for _ in range(15):
         O.dt = random.uniform(.05, .5) * solver.criticalTimeStep()

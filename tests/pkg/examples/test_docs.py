@@ -1,4 +1,4 @@
-"""All Python of the manual and the README runs, as it is printed there."""
+"""All Python of the manual and the README runs, as it is printed there; so do the cases of tests/pkg/examples/cases."""
 import importlib.util
 import pathlib
 import re
@@ -12,6 +12,9 @@ from project import ROOT, yadeCommand
 BLOCKS = {f'{page.name}-{number}': block
           for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
           for number, block in enumerate(re.findall(r'^```python\n(.*?)^```', page.read_text(), re.S | re.M))}
+CASES = pathlib.Path(__file__).resolve().parent / 'cases'
+kCases = sorted(case.name for case in CASES.glob('*.py'))
+kLong = 'concrete_softening.py', 'crushed_rock_ledger.py'
 # What a recipe prints beside a closed form; 15 %: coarse meshes, the disc has 10 % too much.
 BY_HAND = r': ([-+.e\d]+) \S+, by hand ([-+.e\d]+) \S+'
 
@@ -30,7 +33,8 @@ def test_blockRuns(folder, name):
     assert len(re.findall(BY_HAND, done.stdout)) == BLOCKS[name].count(', by hand '), done.stdout
 
 
-def test_thereAreBlocks():
+def test_thereAreBlocksAndCases():
+    assert set(kLong) < set(kCases)
     assert len(BLOCKS) >= 12 and any(name.startswith('getting_started') for name in BLOCKS)
 
 
@@ -43,3 +47,13 @@ def test_referenceHasTheDocstrings():
     assert [name for name in yadefrag.__all__ if not re.search(rf'^### `{name}\b', found, re.M)] == []
     for words in ('### `plotMesh(fe,', '`addPolygon(self, outline,', '- `size`: length of the triangles', '`fractureEnergy`'):
         assert words in found
+
+
+@pytest.mark.parametrize('name', [pytest.param(name, marks=[pytest.mark.long] * (name in kLong)) for name in kCases])
+def test_caseHolds(name, folder):
+    """Scenes and files as users bring them, which once failed; each in a yade of its own. A case says at its top what is
+    expected, computes it apart from the engine, and exits with 0 if it holds."""
+    done = subprocess.run([*yadeCommand(), '-j1', str(CASES / name)], cwd=folder,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=900)
+    # YADE's own exit code of a script that ends with an exception is 1 as well.
+    assert done.returncode == 0, done.stdout[-3000:]

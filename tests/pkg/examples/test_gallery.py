@@ -1,7 +1,6 @@
 """scripts/gallery: its makers are those of the pictures and tables that the pages show; a maker that fails
 changes nothing."""
 import importlib.util
-import pathlib
 import re
 import subprocess
 

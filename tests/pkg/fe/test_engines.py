@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, steps
+from fe_scene import fe, steps, throwBall
 from yade import gridpfacet, utils
 from yade import wrapper as w
 
@@ -62,9 +62,7 @@ def scene(**choices):
     solver.addPolygon(yadefrag.rectangle((1, -.2), (1.4, 0)), size=.1, material='m', thickness=.1,
                       fixed=lambda x, y: y < -.199)
     for x in (0, 1.2):
-        ball = utils.sphere((x, RADIUS + 1e-4, 0), RADIUS, material='m')
-        ball.state.blockedDOFs, ball.state.vel = 'zXY', (0, -1, 0)
-        O.bodies.append(ball)
+        throwBall((x, RADIUS + 1e-4), RADIUS, (0, -1))
     O.engines = yadefrag.engines(solver, spheres=True, **choices)
     O.dt = .2 * solver.criticalTimeStep()
     return solver
@@ -143,16 +141,6 @@ def test_loopWithOtherFunctorsIsUsed():
     assert yadefrag.engines(solver, spheres=True, loop=own)[2] is own
 
 
-@pytest.mark.parametrize('name, value', [
-    ('loop', w.NewtonIntegrator), ('loop', 'CurveLoop'), ('integrator', w.InteractionLoop), ('integrator', 3),
-    ('collider', w.CurveLoop), ('collider', 'LebesgueCollider')])
-def test_wrongClassesAreRefused(name, value):
-    solver = fe()
-    with pytest.raises(ValueError, match='^%s is .* it must be None, or a class derived from ' % name):
-        yadefrag.engines(solver, spheres=True, gravity=(0, -1), **{name: value})
-    assert tuple(solver.gravity) == (0, 0, 0) and solver.takesGravity
-
-
 # --- gravity
 
 def accelerations(solver, ball, count=20):
@@ -168,9 +156,7 @@ def accelerations(solver, ball, count=20):
 def test_changedGravityReachesAllBodies(how, integrator, isSaved, folder):
     solver = fe(**(dict(gravity=(0, -9.81)) if how == 'fe.gravity' else {}))
     solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m', thickness=.1)
-    ball = utils.sphere((.5, .3, 0), .05, material='m')
-    ball.state.blockedDOFs = 'zXY'
-    O.bodies.append(ball)
+    ball = throwBall((.5, .3), .05)
     O.engines = yadefrag.engines(solver, spheres=True, integrator=integrator,
                                  **(dict(gravity=(0, -9.81)) if how == 'gravity=' else {}))
     if how == 'listed':
@@ -236,9 +222,7 @@ def test_relaxWaitsForSpheres(place):
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, -.1), (.4, 0)), size=.1, material='m', thickness=.1,
                       fixed=lambda x, y: y < -.0999)
-    ball = utils.sphere((*place, 0), .05, material='m')
-    ball.state.blockedDOFs = 'zXY'
-    O.bodies.append(ball)
+    ball = throwBall(place, .05)
     O.engines = yadefrag.engines(solver, spheres=True, gravity=(0, -9.81))
     O.dt = .5 * solver.criticalTimeStep()
     solver.relax()

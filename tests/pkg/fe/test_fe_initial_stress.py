@@ -254,21 +254,3 @@ def test_aTunnelIsAsWideAsSalencons():
     radial = above - above * r[near]**2
     assert (middle + half).mean() == pytest.approx(radial.mean(), rel=.1)
     assert (middle - half).mean() == pytest.approx((above - 3 * above * r[near]**2).mean(), rel=.1)
-
-
-@pytest.mark.parametrize('wrong, sentence', [
-    (dict(stress=(1, 2, 3, math.inf)), '^stress is .*three or four finite numbers'),
-    (dict(stress=3), '^stress is 3, it must be three or four finite numbers'),
-    (dict(stress=(1, 2)), '^stress is .*three or four finite numbers'),
-    (dict(stress=(1, math.nan, 2)), '^stress is .*three or four finite numbers'),
-    (dict(stress='high'), "^stress is 'high'"),
-    (dict(stress=np.zeros((2, 3))), r'^stress has the shape \(2, 3\), it must be \(\d+, 3\)'),
-    (dict(stress=lambda x, y: (x, y)), r'^stress\(.*three or four finite numbers'),
-    (dict(stress=(9e7, 0, 0)), r'^stress at \(.* m is \(9e\+07, 0, 0\) Pa, .*strained by more than half'),
-    (dict(stress=(1, 0, 0), displacement=lambda x, y: (0, 0)), 'only one of them can be'),
-])
-def test_wrongStressesAreRefused(wrong, sentence):
-    solver = fe()
-    with pytest.raises(ValueError, match=sentence):
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', **wrong)
-    assert len(solver.nodes) == 0

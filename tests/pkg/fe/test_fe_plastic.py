@@ -2,7 +2,6 @@
 import builtins
 import math
 import os
-import re
 
 import numpy
 import pytest
@@ -50,26 +49,6 @@ def test_barIsUpsetAndHeated():
     assert not fe.warnings
 
 
-def test_fieldsArePlottedExportedAndRecorded(tmp_path):
-    fe = bar()
-    O.engines = O.engines + [yadefrag.FERecorder(100, str(tmp_path / 'run'))]
-    O.run(301, True)
-    shown = yadefrag.plotMesh(fe, 'plasticStrain').collections[0].get_array()
-    assert numpy.array_equal(shown, fe.plasticStrain)
-    assert yadefrag.plotMesh(fe, 'temperature') is not None
-    meshio = pytest.importorskip('meshio')
-    file = str(tmp_path / 'bar.vtu')
-    yadefrag.exportVTK(fe, file)
-    mesh = meshio.read(file)
-    assert numpy.array_equal(mesh.cell_data['plastic strain'][0], fe.plasticStrain)
-    assert numpy.array_equal(mesh.cell_data['temperature'][0], fe.temperature)
-    with open(tmp_path / 'run.csv', encoding='utf-8') as table:
-        head, *lines = [line.rstrip().split(',') for line in table]
-    last = dict(zip(head, lines[-1]))
-    assert len(lines) == 4 and float(last['plastic (J)']) > 0
-    assert float(last['largest plastic strain']) > .05 and float(last['highest temperature (K)']) > 300
-
-
 def test_smoothedIsTheDefaultAndLinearTrianglesLock():
     ends = {}
     for element in (None, 'smoothed', 'linear'):
@@ -84,36 +63,6 @@ def test_smoothedIsTheDefaultAndLinearTrianglesLock():
         ends[element] = fe.nodes.copy()
     assert numpy.array_equal(ends[None], ends['smoothed'])
     assert not numpy.array_equal(ends[None], ends['linear'])
-
-
-@pytest.mark.parametrize('constants, sentence', [
-    (dict(yieldStress=0), 'yieldStress is 0 Pa; it must be positive and finite.'),
-    (dict(hardening=-1e6), r'hardening is -1e\+06 Pa; it must be 0 or positive, and finite.'),
-    (dict(hardeningExponent=0), 'hardeningExponent is 0; it must be above 0 and at most 1.'),
-    (dict(meltTemperature=200), 'meltTemperature is 200 K; it must be above startTemperature, and finite.'),
-    (dict(rateFactor=math.nan), 'rateFactor is nan; it must be 0 or positive, and finite.'),
-    (dict(heatShare=1.5), 'heatShare is 1.5; it must be from 0 to 1.')])
-def test_wrongConstantsAreRefused(constants, sentence):
-    O.materials.append(PlasticFEMat(**{**COPPER, **constants}))
-    fe = FESolver()
-    with pytest.raises(ValueError, match=sentence):
-        fe.addPolygon(rectangle((0, 0), (.008, .024)), size=1e-3, material=0)
-    assert len(fe.nodes) == 0
-
-
-@pytest.mark.parametrize('constants, sentence', [
-    (dict(cohesion=-1), 'cohesion is -1 Pa; it must be 0 or positive, and finite.'),
-    (dict(cohesion=0, fractureEnergy=1), 'cohesion is 0 Pa; it must be positive if fractureEnergy is given.'),
-    (dict(cohesion=0, internalFriction=0), 'cohesion and internalFriction are 0; one of them must be positive.'),
-    (dict(internalFriction=1.6), 'internalFriction is 1.6; it must be at least 0 and below π/2'),
-    (dict(dilationAngle=.6), 'dilationAngle is 0.6; it must be at least 0 and at most internalFriction.'),
-    (dict(tensionLimit=-1), 'tensionLimit is -1 Pa; it must be 0 or positive.'),
-    (dict(planeStress=True), 'planeStress is True, but the material is frictional; it must be False.')])
-def test_wrongConstantsOfFrictionAreRefused(constants, sentence):
-    soil = dict(young=1e8, poisson=.3, density=2000, cohesion=1e4, internalFriction=.5)
-    O.materials.append(FrictionalFEMat(**{**soil, **constants}))
-    with pytest.raises(ValueError, match=re.escape(sentence)):
-        FESolver().addPolygon(rectangle((0, 0), (.1, .1)), size=1e-2, material=0)
 
 
 def test_aBlockOfSoilIsCrushed():
@@ -194,32 +143,67 @@ def test_drySandIsAccepted():
     assert mean.max() < .1 * -mean.min()
 
 
-def test_hardeningTable():
-    table = [(0, 1e8), (.1, 2e8)]
-    assert PlasticFEMat(hardeningTable=table).hardeningTable == table
-    assert PlasticFEMat().hardeningTable == 'none'
-    with pytest.raises(ValueError, match='stresses must not decrease'):
-        PlasticFEMat(hardeningTable=[(0, 2e8), (.1, 1e8)])
-    with pytest.raises(TypeError, match='hardeningTable is'):
-        PlasticFEMat(hardeningTable=7)
-
-
-def test_severalMaterialsMustNotYield():
-    O.materials.append(PlasticFEMat(**COPPER))
-    O.materials.append(steel())
-    with pytest.raises(ValueError, match='several materials, one of which yields'):
-        FESolver().addPolygon(rectangle((0, 0), (.008, .024)), size=1e-3,
-                              material=lambda x, y: 0 if y < .01 else 1)
-
-
-def test_aScenesFilesWithoutYieldingHaveNoNewColumns(tmp_path):
-    O.materials.append(BrittleFEMat(young=70e9, poisson=.2, density=2500, tensileStrength=6e6))
+@pytest.mark.parametrize('material, yields', [
+    (dict(young=70e9, poisson=.2, density=2500, tensileStrength=6e6), False), (COPPER, True)])
+def test_filesWithoutYieldingOrFailureHaveNoNewColumns(material, yields, tmp_path):
+    O.materials.append((PlasticFEMat if yields else BrittleFEMat)(**material))
     fe = FESolver()
-    fe.addPolygon(rectangle((0, 0), (.008, .024)), size=2e-3, material=0, velocity=(0, -1))
+    fe.addPolygon(rectangle((0, 0), (.008, .024)), size=2e-3, material=0, velocity=lambda x, y: (0, -4000 * y * yields))
     O.engines = yadefrag.engines(fe) + [yadefrag.FERecorder(1, str(tmp_path / 'run'), fields=())]
     O.dt = .5 * fe.criticalTimeStep()
-    O.run(2, True)
-    assert 'plastic' not in fe.energy and (fe.plasticStrain == 0).all()
+    O.run(11, True)
+    assert (fe.damage == 0).all() and fe.damage.shape == (len(fe.triangles),)
+    assert ('plastic' in fe.energy) == fe.plasticStrain.any() == yields
     with open(tmp_path / 'run.csv', encoding='utf-8') as lines:
-        assert 'plastic' not in lines.readline()
+        head = lines.readline()
+    assert 'damage' not in head and ('plastic' in head) == yields
     assert os.listdir(tmp_path) == ['run.csv']
+
+
+# --- Taylor's bar of copper, 227 m/s, in plane strain: final length and foot, beside CalculiX's explicit dynamics
+
+# CalculiX has stepped the same triangles as wedges C3D6 between two layers of nodes that are held in z, which are as
+# stiff against changes of volume as our 'linear' triangles. The yield stress is the same table. The wall: the foot's
+# nodes do not move along the bar.
+WIDTH, LENGTH, SIZE, SPEED, UNTIL = 6.4e-3, 32.4e-3, 8e-4, 227, 80e-6  # m, m/s, s
+YOUNG, POISSON, DENSITY = 124e9, .34, 8960
+TABLE = [(p, 90e6 + 292e6 * p**.31) for p in [0] + [.002 * 1.35**i for i in range(22)]]
+CALCULIX = 19.73325e-3, 25.86694e-3  # m, of version 2.20, on 28 November 2026; its input is made at commit d04f483
+
+
+def taylorBar(element):
+    O.reset()
+    O.materials.append(PlasticFEMat(young=YOUNG, poisson=POISSON, density=DENSITY, hardeningTable=TABLE))
+    fe = FESolver()
+    fe.addPolygon(rectangle((0, 0), (WIDTH, LENGTH)), size=SIZE, material=0, element=element,
+                  velocity=lambda x, y: (0, -SPEED if y > 1e-9 else 0), fixed=lambda x, y: 'y' if y < 1e-9 else False)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .6 * fe.criticalTimeStep()
+    return fe
+
+
+def measure(places, reference):
+    """Length and foot (m)."""
+    foot = places[reference[:, 1] < 1e-9, 0]
+    return places[:, 1].max(), numpy.ptp(foot)
+
+
+def ours(element):
+    fe = taylorBar(element)
+    reference = fe.nodes.copy()
+    while fe.time < UNTIL:
+        O.run(100, True)
+    assert not [one for one in fe.warnings if 'energy' in one]
+    return measure(fe.nodes, reference)
+
+
+def test_lengthAndFootAreThoseOfCalculiX():
+    """Measured -.003 and -.10 %."""
+    length, foot = ours('linear')
+    assert length == pytest.approx(CALCULIX[0], rel=5e-4)
+    assert foot == pytest.approx(CALCULIX[1], rel=2e-3)
+
+
+def test_lockingMakesTheBarLonger():
+    """What CalculiX's wedges share with linear triangles: less flow than with the default."""
+    assert ours('smoothed')[0] < ours('linear')[0]

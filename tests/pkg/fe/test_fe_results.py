@@ -37,10 +37,12 @@ def test_weightOnTheFloor():
         lambda x, y: y <= 1e-3)
 
 
-def test_reactionIsTheAppliedLoad():
-    """A cantilever under a load at its tip: force and moment at the clamp, and its deflection."""
+@pytest.mark.parametrize('element, part, off', [('smoothed', 1.005, .015), ('linear', .89, .02)])
+def test_reactionIsTheAppliedLoad(element, part, off):
+    """A cantilever, four triangles high, under a load at its tip: force and moment at the clamp, and its deflection, over
+    Timoshenko's."""
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (8, 1)), size=.25, material='m', element='smoothed',
+    solver.addPolygon(yadefrag.rectangle((0, 0), (8, 1)), size=.25, material='m', element=element,
                       fixed=lambda x, y: x < 1e-9)
     run(solver)
     places, tip = solver.nodes, solver.nodes[:, 0] > 8 - 1e-9
@@ -53,7 +55,7 @@ def test_reactionIsTheAppliedLoad():
     # Load and weight of the arm: 8 m, but for the deflection.
     assert (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]).sum() == pytest.approx(8, rel=1e-3)
     theory = 8**3 * 4 * (1 - .3**2) / 1e7 + 1.2 * 8 * 2 * 1.3 / 1e7
-    assert (places - arm)[tip, 1].mean() == pytest.approx(theory, rel=.02)
+    assert (places - arm)[tip, 1].mean() / theory == pytest.approx(part, abs=off)
 
 
 def test_forcesOfContactAreOppositeAndAddUp():
@@ -207,18 +209,3 @@ def test_openJointsHaveNoStart():
     table = yadefrag.crackTable(solver)
     assert len(table) > 0 == solver.numCracks and np.isnan(table['start']).all()
     assert (table['damage'] == 1).all() and not table['held'].any() and table['y'] == pytest.approx(.5)
-
-
-@pytest.mark.parametrize('call, sentence', [
-    (lambda fe: fe.contactForce('anvil'), "a is 'anvil', it must be the number or the name"),
-    (lambda fe: fe.contactForce(0, 9), 'b is 9, which is no body'),
-    (lambda fe: fe.reaction('anvil'), "component is 'anvil'"),
-    (lambda fe: fe.reaction([99]), 'but there are'),
-    (lambda fe: yadefrag.crackTable(3), 'fe is 3, it must be an FESolver'),
-])
-def test_wrongArgumentsOfQueriesAreRefused(call, sentence):
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    with pytest.raises(ValueError) as error:
-        call(solver)
-    assert sentence in str(error.value)

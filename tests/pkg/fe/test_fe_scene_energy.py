@@ -1,12 +1,13 @@
 """fe.energy['scene']: contact with YADE's bodies creates no energy, or a message tells how much."""
 import builtins
 import math
+import warnings
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, run
+from fe_scene import blow, fe, finder, kineticEnergy, run
 from yade import utils
 from yade import wrapper as w
 
@@ -24,11 +25,6 @@ def ball(place, radius=.1, velocity=(0, 0), young=1e7, density=1000, angle=.3, s
 def block(solver, **settings):
     settings = dict(size=.125, fixed=lambda x, y: y < 1e-9) | settings
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), material='m', **settings)
-
-
-def energyOf(*bodies):
-    return builtins.sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
-                        for b in bodies)
 
 
 def drift(solver, count, portion=20):
@@ -55,7 +51,7 @@ def falling(damping=0, factor=.1, name='LebesgueCollider', **settings):
 @pytest.mark.parametrize('angle', [0, .5])
 def test_spheresThatFallGiveNoMessage(damping, angle):
     solver = falling(damping, angle=angle)
-    given = energyOf(*[b for b in O.bodies if isinstance(b.shape, w.Sphere)])
+    given = kineticEnergy(*[b for b in O.bodies if isinstance(b.shape, w.Sphere)])
     # Young's moduli of 1e7: the spheres bounce, roll and come to rest within .4 s.
     off, messages = drift(solver, int(.4 / O.dt))
     assert messages == []
@@ -125,30 +121,20 @@ def test_createdEnergyIsThatOfTheBodies():
     sphere = ball((.44, .51), .0101, velocity=(0, -1), young=1e9, density=300)
     O.bodies.append(sphere)
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.8)
-    before = energyOf(sphere)
+    before = kineticEnergy(sphere)
     O.run(int(.002 / O.dt), True)
     O.run(2, True)
-    gained = energyOf(sphere) - before - solver.energy['outside']
+    gained = kineticEnergy(sphere) - before - solver.energy['outside']
     assert gained > .1 * before
     assert solver.energy['scene'] - solver.energy['total'] == pytest.approx(gained, rel=.05)
 
 
-def test_balanceIsSavedAndRecorded(tmp_path):
-    def go():
-        solver = falling(angle=.3, factor=.2)
-        O.engines = O.engines + [yadefrag.FERecorder(iterPeriod=50, file=str(tmp_path / 'run'), fields=[])]
-        return solver
-    solver = go()
-    O.run(2000, True)
-    O.save(str(tmp_path / 'x.yade'))
-    O.run(500, True)
+def test_balanceIsRecorded(tmp_path):
+    solver = falling(angle=.3, factor=.2)
+    O.engines = O.engines + [yadefrag.FERecorder(iterPeriod=50, file=str(tmp_path / 'run'), fields=[])]
+    O.run(2500, True)
     wanted = solver.energy
     assert 'scene' in wanted and wanted['scene'] != wanted['total']
-    O.reset()
-    O.load(str(tmp_path / 'x.yade'))
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    O.run(500, True)
-    assert solver.energy == wanted
     head, *rows = (tmp_path / 'run.csv').read_text().splitlines()
     place = head.split(',').index('scene (J)')
     # The last record is of a step before the end of the run, or of that.
@@ -168,3 +154,69 @@ def test_externalIsAnAlias():
     with pytest.raises(KeyError):
         energy['nothing']
     assert energy.get('nothing', 3) == 3 and not math.isnan(energy['total'])
+
+
+# --- what FESolver complains of: energy that contact makes, bodies that sink into one another
+
+@pytest.mark.parametrize('settings', [{}, dict(passes=2)])
+def test_correctImpactGivesNoMessage(settings, capfd):
+    solver = blow(**settings)
+    O.run(400, True)
+    assert solver.numSearches > 0 and solver.energy['contact'] > 0
+    assert solver.warnings == [] and 'WARN  FESolver' not in capfd.readouterr().err
+
+
+def test_overlapIsReportedOncePerDoubling(capfd, tmp_path):
+    """No force of contact moves held nodes."""
+    solver = blow(held=True)
+    O.run(400, True)
+    sentences = solver.warnings
+    assert 0 < len(sentences) < 8
+    assert 'bodies overlap by' in sentences[0] and 'take a shorter step' in sentences[0]
+    err = capfd.readouterr().err
+    assert [line for line in err.splitlines() if line.startswith('WARN')] == \
+        ['WARN  FESolver: ' + sentence for sentence in sentences]
+    # They are part of the state, and not repeated.
+    for name in ('x.yade', 'x.xml'):
+        path = str(tmp_path / name)
+        O.save(path)
+        O.load(path)
+        [again] = [e for e in O.engines if isinstance(e, w.FESolver)]
+        assert again.warnings == sentences
+        assert 'WARN  FESolver' not in capfd.readouterr().err
+
+
+def test_untouchedBodyGivesNoMessage():
+    material = w.FEMat(young=210e9, poisson=.3, density=7800)
+    O.materials.append(material)
+    solver = w.FESolver()
+    nodes, triangles = yadefrag.rectangleMesh((.3, .3), (1, 1), 7, 7)
+    solver.addTriangles(nodes, triangles, material=material)
+    run(solver, finder('LebesgueCollider'))
+    O.run(7000, True)
+    assert solver.energy['total'] > 0 and solver.warnings == []
+
+
+def test_deepestOverlapIsThatOfContact():
+    """Held faces that move into one another: the same depth by triangles as by points, to some 0.05 of a segment."""
+    solver = blow(held=True)
+    assert solver.deepestOverlap() == 0
+    O.run(20, True)
+    assert solver.maxPenetration > 1e-5
+    assert abs(solver.deepestOverlap() / solver.maxPenetration - 1) < .05
+
+
+def test_bodiesWithoutTheirEngineAreReported():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines, O.dt = [w.ForceResetter()], 1e-6
+    with pytest.warns(UserWarning, match='O.engines has no FESolver, so that nothing moves its bodies'):
+        yadefrag.runSteps(1)
+    O.reset()
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        yadefrag.runSteps(1)

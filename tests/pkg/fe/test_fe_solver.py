@@ -1,4 +1,4 @@
-"""FESolver in YADE: the same run with any collider; its values; what addPolygon takes."""
+"""FESolver in YADE: its values; what addPolygon takes. The same run with any collider: test_same_bits.py."""
 import builtins
 
 import numpy as np
@@ -6,60 +6,8 @@ import pytest
 
 import yadefrag
 from fe_scene import fe, finder, impact, momentum, run, steps
-from yade import wrapper as w
 
 O = builtins.O
-
-
-# --- the same with any collider
-
-@pytest.mark.parametrize('smooth', [False, True])
-@pytest.mark.parametrize('passes', [1, 2])
-def test_everyColliderGivesTheSameRun(smooth, passes):
-    results = {}
-    for name in (None, 'LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider',
-                 'InsertionSortCollider'):
-        O.reset()
-        solver = impact(name, smooth, passes=passes)
-        actives = []
-        for _ in range(500):
-            O.step()
-            actives.append(solver.numActives)
-        results[name] = solver.nodes, solver.velocities, actives
-        assert solver.numSearches < 300
-        if name:
-            assert len(list(O.interactions)) == 0
-    wanted = results.pop(None)
-    assert max(wanted[2]) > 0
-    for name, found in results.items():
-        assert found[2] == wanted[2], name
-        assert np.abs(found[0] - wanted[0]).max() < 1e-13, name
-        assert np.abs(found[1] - wanted[1]).max() < 1e-9, name
-
-
-def test_colliderBehindTheSolver():
-    wanted = impact(None)
-    steps(400)
-    nodes = wanted.nodes
-    O.reset()
-    solver = impact('LebesgueCollider')
-    O.engines = [O.engines[0], O.engines[2], O.engines[3], O.engines[1]]
-    steps(400)
-    assert np.abs(solver.nodes - nodes).max() < 1e-13
-    assert O.engines[3].numAction == 1, 'nothing could meet the bounds: no search is requested'
-
-
-def test_colliderWithoutTheFunctorLosesNothing():
-    wanted = impact(None)
-    steps(400)
-    nodes = wanted.nodes
-    O.reset()
-    solver = fe()
-    O.reset()
-    solver = impact(None)
-    O.engines = [O.engines[0], w.LebesgueCollider([w.Bo1_Sphere_Aabb()]), *O.engines[1:]]
-    steps(400)
-    assert np.abs(solver.nodes - nodes).max() < 1e-13
 
 
 # --- values
@@ -102,18 +50,6 @@ def test_fragmentsAreTheBodies():
     assert parts[1]['area'] == pytest.approx(.095 * .2)
     assert parts[1]['centroid'] == pytest.approx((.1525, 0))
     assert sum(p['mass'] for p in parts) == pytest.approx(solver.masses.sum())
-
-
-def test_energyIsTracked():
-    solver = impact('LebesgueCollider')
-    O.trackEnergy = True
-    O.step()
-    first = O.energy.total()
-    steps(400)
-    items = dict(O.energy.items())
-    assert items['feKinetic'] == pytest.approx(solver.energy['kinetic'])
-    assert items['feStrain'] > 0
-    assert O.energy.total() == pytest.approx(first, rel=1e-4)
 
 
 def test_pieceBodiesFollow():

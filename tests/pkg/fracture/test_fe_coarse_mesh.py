@@ -122,14 +122,6 @@ def test_aFineMeshIsLeftAsItIs():
     assert len(set(positions)) == 1
 
 
-def test_anUnknownChoiceIsRefusedAndTheSceneIsUnchanged():
-    material('fine')
-    fe = w.FESolver()
-    with pytest.raises(ValueError, match="coarseMesh is 'fine'; it must be 'warn', 'strength' or 'energy'"):
-        fe.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=2 * kZone, material='rock')
-    assert not len(fe.components) and not len(O.bodies)
-
-
 def test_theChoiceOfEachMaterialActsOnItsTriangles():
     material('strength')
     material('warn', label='other', fractureEnergy=100 * kEnergy)

@@ -1,4 +1,4 @@
-"""Bonds of bodies whose nodes differ along their common sides, from Python."""
+"""Bonds of bodies, whose nodes may differ along their common sides, from Python."""
 import builtins
 import math
 import os
@@ -10,6 +10,7 @@ import pytest
 import touching_outlines as touching
 import yadefrag
 from fe_impact import engines
+from fe_scene import momentum
 from yade import utils
 from yade import wrapper as w
 
@@ -22,46 +23,49 @@ def solverOf(**given):
     return w.FESolver()
 
 
-def momentumOf(solver):
-    return (solver.masses[:, None] * solver.velocities).sum(0)
-
-
 def entryBodies():
     return [b for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)]
 
 
-def pair(sizes, velocity=0., angle=0.):
+def pair(sizes, velocity=0., angle=0., gap=0.):
     solver = solverOf(poisson=0, density=1000, planeStress=True)
     c, s = math.cos(angle), math.sin(angle)
-    for low, size in zip((0, .05), sizes):
+    for low, size in zip((0, .05 + gap), sizes):
         outline = [(x * c - y * s, x * s + y * c) for x, y in yadefrag.rectangle((low, 0), (low + .05, .02))]
         solver.addPolygon(outline, size=size, material='m', velocity=lambda x, y: tuple(
             velocity * ((x * c + y * s) / .05 - 1) * np.array([c, s])))
     return solver
 
 
-# --- two sizes
+# --- two bodies
 
-@pytest.mark.parametrize('sizes, angle', [((.002, .003), 0), ((.002, .0013), .7), ((.004, .001), 2.)])
-def test_sidesOfTwoSizesHoldAndBreak(sizes, angle):
+@pytest.mark.parametrize('sizes, angle', [((.002, .002), 0), ((.002, .003), 0), ((.002, .0013), .7), ((.004, .001), 2.)])
+def test_aBondHoldsAndBreaks(sizes, angle):
     solver = pair(sizes, .5, angle)
     sides = solver.bond(0, 1, 5e6, 100)
-    assert sides >= max(round(.02 / size) for size in sizes)
+    assert sides >= max(round(.02 / size) for size in sizes) and (sides == 10 or sizes[0] != sizes[1])
     assert len(entryBodies()) == sum(len(loop) for loop in solver.surfaces)
     engines(solver, factor=.4)
     O.run(1000, True)
-    assert len(solver.fragments()) == 1
+    assert len(solver.fragments(held=False)) == 2 and len(solver.fragments()) == 1
+    # Below its strength a bond is whole, although rounding opens its faces.
     assert solver.crackCounts == dict(open=0, damaged=0, whole=sides)
+    assert abs(solver.energy['fracture']) < 1e-6 * 100 * .02
     solver = pair(sizes, 20, angle)
     assert solver.bond(0, 1, 5e6, 100) == sides
     engines(solver, factor=.4)
-    before = momentumOf(solver)
-    O.run(int(2e-4 / O.dt), True)
+    before = momentum(solver)[0]
+    O.run(max(1000, int(2e-4 / O.dt)), True)
     assert len(solver.fragments()) == 2 and solver.numCracks == 0
     assert solver.energy['fracture'] == pytest.approx(100 * .02, rel=.02)
     assert solver.crackCounts == dict(open=sides, damaged=0, whole=0)
     assert len(yadefrag.crackTable(solver)) == sides
-    assert np.abs(momentumOf(solver) - before).max() < 1e-12 * solver.masses.sum() * 20
+    assert np.abs(momentum(solver)[0] - before).max() < 1e-12 * solver.masses.sum() * 20
+
+
+def test_bodiesThatDoNotTouchAreRefused():
+    with pytest.raises(ValueError, match='No sides of the bodies 0 and 1'):
+        pair((.002, .002), gap=.01).bond(0, 1, 1e6, 100)
 
 
 def test_aBodyAddedLaterAndASphereTouchDividedSides():
@@ -75,11 +79,10 @@ def test_aBodyAddedLaterAndASphereTouchDividedSides():
     O.bodies[ball].state.vel = (0, -1, 0)
     O.bodies[ball].state.blockedDOFs = 'zXYZ'
     engines(solver, factor=.4)
-    start = momentumOf(solver) + O.bodies[ball].state.mass * np.array([0, -1.])
+    start = momentum(solver)[0]
     O.run(int(8e-4 / O.dt), True)
     assert O.bodies[ball].state.vel[1] > 0
-    after = momentumOf(solver) + O.bodies[ball].state.mass * np.array(O.bodies[ball].state.vel)[:2]
-    assert np.abs(after - start).max() < 1e-9 * solver.masses.sum()
+    assert np.abs(momentum(solver)[0] - start).max() < 1e-9 * solver.masses.sum()
     assert len(solver.fragments()) == 2
 
 
@@ -111,29 +114,40 @@ def test_aMeshFromAFileIsBondedToAPolygon(folder):
 
 # --- masonry
 
-def test_masonryOfSeveralSizesCarriesLoadAsOneBodyDoes():
-    """Neither snapped nor of one size; drawn evenly, the stress is that of one body."""
-    wall = touching.rubbleMasonry(3, 2)
-    top = max(y for outline in wall for _, y in outline)
+WALLS = {
+    'masonry': lambda: (touching.rubbleMasonry(3, 2), (.03, .019, .024), .003),
+    'snapped masonry': lambda: (yadefrag.snapOutlines(
+        touching.rounded(touching.rubbleMasonry(3, 2), 3), .004)[0], (.03,), .004),
+    'grains': lambda: (yadefrag.voronoi(yadefrag.rectangle((0, 0), (.04, .04)), 8, 3, shortest=.004), (.003,), 1e-6)}
+
+
+@pytest.mark.parametrize('kind', WALLS)
+def test_bondedBodiesCarryLoadAsOneBodyDoes(kind):
+    """Neither all snapped nor of one size; drawn evenly, the stress is that of one body where no wave has come yet."""
+    outlines, sizes, tolerance = WALLS[kind]()
+    wide, top = np.concatenate(outlines).max(axis=0)
+    part = (.012, .012) if kind == 'grains' else (.35, .03)
     solver = solverOf()
-    for k, outline in enumerate(wall):
-        solver.addPolygon(outline, size=(.03, .019, .024)[k % 3], material='m', velocity=lambda x, y: (x - .5, 0))
+    for k, outline in enumerate(outlines):
+        solver.addPolygon(outline, size=sizes[k % len(sizes)], material='m', velocity=lambda x, y: (x - wide / 2, 0))
     before = solver.criticalTimeStep()
     with warnings.catch_warnings():
         warnings.simplefilter('error')
-        sides = solver.bondAll(.003, 1e8, 1e7)
-    assert sides > 40 and solver.criticalTimeStep() > .3 * before
+        sides = solver.bondAll(tolerance, 1e8, 1e7)
+    assert sides > (20 if kind == 'grains' else 40) and solver.criticalTimeStep() > .3 * before
     assert len(solver.fragments()) == 1
-    engines(solver, factor=.5)
-    momentum, energy = momentumOf(solver), solver.energy['total']
-    while O.time < 6e-5:
-        O.run(1, True)
+    engines(solver, factor=.4)
+    started, energy = momentum(solver)[0], solver.energy['total']
+    last = min(6e-5, .7 * (top / 2 - part[1]) / 750)  # m/s, of waves; what runs ahead of these is some thousandths
+    while O.time + O.dt < last:
+        O.step()
+    assert len(solver.fragments(held=True)) == 1
     middles = solver.nodes[solver.triangles].mean(axis=1)
-    inside = (abs(middles[:, 0] - .5) < .35) & (abs(middles[:, 1] - top / 2) < .03)
+    inside = (abs(middles - (wide / 2, top / 2)) < part).all(axis=1)
     wanted = 1e9 * .8 / 1.2 / .6 * O.time
-    assert O.time * 750 < top / 2 - .03 and inside.sum() > 20
-    assert solver.stress[inside, 0] == pytest.approx(wanted, rel=.02)
-    assert np.abs(momentumOf(solver) - momentum).max() < 1e-9 * solver.masses.sum()
+    assert O.time > .8 * last and inside.sum() > 20
+    assert solver.stress[inside, 0] == pytest.approx(wanted, rel=.01 if kind == 'grains' else .02)
+    assert np.abs(momentum(solver)[0] - started).max() < 1e-9 * solver.masses.sum()
     assert solver.energy['total'] == pytest.approx(energy, rel=1e-4)
 
 

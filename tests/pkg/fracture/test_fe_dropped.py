@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
-from yadefrag.plots.colours import fragmentColours
-from yade import utils
+from fe_impact import impact, requireBodiesAreEntries, steps
+from fe_scene import momentum, throwBall
+from yadefrag.plots.axes import fragmentColours
 from yade import wrapper as w
 
 O = builtins.O
@@ -18,20 +18,6 @@ def dropping(finder='LebesgueCollider', **values):
     solver = impact(finder, **values)
     solver.minFragmentArea = kArea
     return solver
-
-
-def momentum(solver):
-    return (solver.masses[:, None] * solver.velocities).sum(axis=0)
-
-
-@pytest.mark.parametrize('wrong', [-1, float('nan'), float('inf')])
-def test_badAreaIsRefused(wrong):
-    with pytest.raises(ValueError, match=r'FESolver.minFragmentArea is .*, it must be positive'):
-        w.FESolver(minFragmentArea=wrong)
-    solver = w.FESolver(minFragmentArea=2)
-    with pytest.raises(ValueError):
-        solver.minFragmentArea = wrong
-    assert solver.minFragmentArea == 2
 
 
 def test_offByDefault():
@@ -75,58 +61,12 @@ def test_momentumOfAFreeBlock():
                           material='b', velocity=(0, speed))
     O.engines = [solver]
     O.dt = .5 * solver.criticalTimeStep()
-    start = momentum(solver)
+    start = momentum(solver)[0]
     steps(250)
     gone = solver.dropped
     assert gone['count'] > 3
-    assert np.allclose(momentum(solver) + gone['momentum'], start, rtol=0,
+    assert np.allclose(momentum(solver)[0] + gone['momentum'], start, rtol=0,
                        atol=1e-11 * np.linalg.norm(start))
-
-
-@pytest.mark.parametrize('finder', ['InsertionSortCollider', None])
-def test_sameWithAnyCollider(finder):
-    runs = []
-    for one in ('LebesgueCollider', finder):
-        O.reset()
-        solver = dropping(one)
-        steps(220)
-        runs.append((state(solver), solver.dropped, solver.numCracks))
-    assert runs[0][1]['count'] > 3
-    assert runs[0][2] == runs[1][2] and runs[0][1]['count'] == runs[1][1]['count']
-    if finder:
-        assert areSame(runs[0][0], runs[1][0]) and runs[0][1] == runs[1][1]
-
-
-@pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])
-def test_spheresAmongDroppedFragments(finder):
-    """Interactions of bodies that go, go as well, and the others carry on."""
-    solver = dropping(finder)
-    heapSpheres()
-    touched = 0
-    for _ in range(30):
-        steps(20)
-        touched += sum(i.isReal for i in O.interactions)
-        for i in O.interactions:
-            assert O.bodies[i.id1] is not None and O.bodies[i.id2] is not None
-    requireBodiesAreEntries(solver)
-    assert touched > 20 and solver.dropped['count'] > 2
-    # A body that is made later gets a number of its own.
-    new = solver.addPolygon(yadefrag.rectangle((.1, 0), (.11, .01)), size=.005, material='m')
-    steps(5)
-    requireBodiesAreEntries(solver)
-    assert new == 2
-
-
-def test_bodyWithDroppedFragmentsIsRemoved():
-    solver = dropping()
-    steps(200)
-    assert solver.dropped['count'] > 0
-    before = solver.dropped
-    solver.removeBody(0)
-    assert {b.shape.component for b in O.bodies if b} == {1}
-    steps(20)
-    assert len(solver.fragments()) == 1 and solver.dropped == before
-    requireBodiesAreEntries(solver)
 
 
 def test_energyIsTracked():
@@ -173,9 +113,7 @@ def test_contactsOfASphereWithWhatGoesLeaveWithIt(young):
     solver = w.FESolver(minFragmentArea=3e-4)
     solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .05)), size=.02, material='plate', thickness=.06,
                       fixed=lambda x, y: x < 1e-9 or x > .4999)
-    ball = utils.sphere((.25, .081, 0), .03, material=w.FrictMat(young=young, poisson=.2, density=4000, frictionAngle=.4))
-    ball.state.vel, ball.state.blockedDOFs = (0, -20, 0), 'zXY'
-    O.bodies.append(ball)
+    ball = throwBall((.25, .081), .03, (0, -20), w.FrictMat(young=young, poisson=.2, density=4000, frictionAngle=.4))
     impactEnergy = .5 * ball.state.mass * 20**2
     O.engines = yadefrag.engines(solver, spheres=True)
     O.dt = .3 * solver.criticalTimeStep()

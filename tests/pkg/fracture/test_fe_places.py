@@ -1,6 +1,5 @@
 """Strength and fracture energy by place, from Python."""
 import builtins
-import math
 import os
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 
 import yadefrag
 from fe_impact import brittle, cracks, engines
-from fe_scene import fe, finder, solverOfScene  # noqa: F401  fixtures
+from fe_scene import solverOfScene
 from yade import wrapper as w
 
 O = builtins.O
@@ -69,25 +68,6 @@ def test_arraysAreTheSameAsFunctions(folder):
     assert np.array_equal(again.nodes, nodes) and again.energy == energy
 
 
-@pytest.mark.parametrize('name', ['strength', 'fractureEnergy'])
-@pytest.mark.parametrize('wrong, sentence', [
-    (lambda x, y: -1, ' is -1 .*; it must be'),
-    (lambda x, y: math.nan, ' is nan .*; it must be'),
-    (lambda x, y: 'hard', r"\(.*is 'hard', it must be"),
-    ([1., 2.], ' has 2 values, but the mesh has'),
-    (1e6, ' is 1000000.0, it must be None, a function'),
-    ([[1.]], r' is \[\[1.0\]\], it must be None, a function'),
-    ('weak', " is 'weak', it must be None, a function"),
-])
-def test_wrongValuesAreRefused(name, wrong, sentence):
-    solver = w.FESolver()
-    with pytest.raises(ValueError, match='^' + name + sentence) as error:
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material=brittle(),
-                          **{name: wrong})
-    assert str(error.value).count('. ') == 0
-    assert len(O.bodies) == 0 and len(solver.nodes) == 0
-
-
 # --- joints
 
 kJoint = [((.03, .01), (.07, .01))]
@@ -132,28 +112,6 @@ def test_jointsHoldUpToTheirOwnStrength():
     O.run(400, True)
     # The error goes with how few steps an opening takes (tests/fracture/mode_one_test.cpp).
     assert solver.energy['fracture'] == pytest.approx(kEnergy * kHeight, rel=.01)
-
-
-@pytest.mark.parametrize('wrong, sentence', [
-    (dict(joints=3), 'joints is 3, it must be a list of pairs of points'),
-    (dict(joints=[(0, 0)]), r'joints\[0\]\[0\] is 0, it must be a pair of numbers'),
-    (dict(joints=[((0, 0), (1, 1), (2, 2))]), r'joints\[0\] is .*, it must be a pair of points'),
-    (dict(joints=[((0, 0), (1, math.nan))]), r'joints\[0\]\[1\] is .*, both numbers must be finite'),
-    (dict(joints=[((5, 5), (6, 6))]), r'joints\[0\] from .* must run inside the outline'),
-    (dict(joints=[((.05, .01), (.05, .01))]), r'joints\[0\] .* must have two different ends'),
-    (dict(jointStrength=-1), 'jointStrength is -1 Pa; it must be 0 or positive'),
-    (dict(jointStrength=[1, 2]), 'jointStrength has 2 values, it must have one for each of the 1'),
-    (dict(jointStrength=[math.nan]), r'jointStrength\[0\] is nan, it must be a finite number, or None'),
-    (dict(jointEnergy='much'), "jointEnergy is 'much', it must be a number"),
-    (dict(material=w.FEMat(young=1e9, density=1000, poisson=.2)),
-     'joints are given, but the material neither cracks nor fails; it must be a BrittleFEMat'),
-])
-def test_wrongJointsAreRefused(wrong, sentence):
-    solver = w.FESolver()
-    wanted = dict(size=.004, material=brittle(), joints=kJoint)
-    with pytest.raises(ValueError, match=sentence):
-        solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .02)), **{**wanted, **wrong})
-    assert len(O.bodies) == 0 and len(solver.nodes) == 0
 
 
 # --- grains

@@ -1,11 +1,11 @@
-"""Softening curves of cracks, from Python."""
+"""Softening curves of cracks, and rateEffect, by which the strength increases with the strain rate, from Python."""
 import builtins
+import warnings
 
 import numpy as np
 import pytest
 
 import yadefrag
-from refused import assertRefused
 from yade import wrapper as w
 
 O = builtins.O
@@ -54,31 +54,103 @@ def test_aJointOpensWithItsEnergyUpToTheCriticalOpening(softening):
     assert not fe.warnings
 
 
-def test_aNameOrPointsAreGivenAndReturned():
-    material = w.BrittleFEMat()
-    assert material.softening == 'linear'
-    for one in kCurves:
-        material.softening = one
-        assert material.softening == one
-        assert w.BrittleFEMat(softening=one).softening == one
-    material.softening = np.array(kTable)
-    assert material.softening == kTable
-    assert material.dict()['softening'] == kTable
+# --- the strain rate
+
+kConcreteStrength, kConcreteEnergy, kYoung, kPoisson, kConcreteLength, kConcreteHeight = 3e6, 100., 30e9, .2, .06, .03
+kFactors = [(1, 1), (100, 4)]
 
 
-@pytest.mark.parametrize('given, kind, message', [
-    ('cubic', ValueError, "softening is 'cubic'; it must be one of 'linear', 'bilinear'"),
-    ('', ValueError, "softening is ''; it must be one of"),
-    ([(0, 1)], ValueError, 'softening has 1 points; it must have at least two'),
-    ([(0, .9), (1, 0)], ValueError, 'softening begins at (0, 0.9); it must begin at (0, 1)'),
-    ([(0, 1), (2e-4, 0)], ValueError, 'softening ends at (0.0002, 0); it must end at (1, 0)'),
-    ([(0, 1), (.5, .2), (.4, .1), (1, 0)], ValueError, 'softening has the opening 0.4 after 0.5'),
-    ([(0, 1), (.4, .1), (.5, .2), (1, 0)], ValueError, 'softening has the traction 0.2 after 0.1'),
-    ([(0, 1), (float('nan'), .2), (1, 0)], ValueError, 'openings must increase'),
-    (3, TypeError, 'softening is 3, it must be a name, or a list of points'),
-    (None, TypeError, 'softening is None, it must be a name'),
-    ([0, 1, 1, 0], TypeError, 'it must be a name, or a list of points'),
-    ([(0, 1), (1, 0, 0)], TypeError, 'it must be a name, or a list of points'),
-    ([(0, 'a'), (1, 0)], TypeError, 'it must be a name, or a list of points')])
-def test_othersAreRefusedByOneSentence(given, kind, message):
-    assertRefused('softening', given, kind, message)
+def ceb(rate):
+    """fib Model Code 2010, 5.1.11.2, in tension."""
+    if rate <= 1e-6:
+        return 1
+    return (rate / 1e-6)**.018 if rate <= 10 else .0062 * (min(rate, 300) / 1e-6)**(1 / 3)
+
+
+def concrete(**more):
+    return w.BrittleFEMat(**dict(dict(young=kYoung, poisson=kPoisson, density=2400, frictionAngle=.6, planeStress=True,
+                                      tensileStrength=kConcreteStrength, fractureEnergy=kConcreteEnergy,
+                                      label='concrete'), **more))
+
+
+def drawnBar(rate, start, material=None, **more):
+    """A bar whose ends part at a constant strain rate; `start`: stress at the begin over the strength."""
+    O.materials.append(material or concrete(**more))
+    stretch = kConcreteStrength / kYoung
+    fe = w.FESolver()
+    fe.addPolygon(yadefrag.rectangle((0, 0), (kConcreteLength, kConcreteHeight)), size=.005, material=0,
+                  velocity=lambda x, y: (rate * x, -kPoisson * rate * y),
+                  displacement=lambda x, y: (start * stretch * x, -kPoisson * start * stretch * y),
+                  fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .2 * fe.criticalTimeStep()
+    return fe
+
+
+def peak(fe, steps=5000):
+    """(Pa) Mean stress along x before the first crack."""
+    a, b, c = np.moveaxis(fe.nodes[fe.triangles], 1, 0)
+    areas = np.cross(b - a, c - a)
+    for _ in range(steps):
+        last = np.average(fe.stress[:, 0], weights=areas)
+        O.step()
+        if fe.numCracks:
+            return last
+    pytest.fail('it did not crack')
+
+
+@pytest.mark.parametrize('effect, rate, factor', [
+    ('none', 30, 1), ('ceb-fip-2010', 5, ceb(5)), ('ceb-fip-2010', 50, ceb(50)), ('ceb-fip-2010', 1000, ceb(300)),
+    (kFactors, 10, 2), (kFactors, .5, 1)], ids=str)
+def test_aBarHasTheStrengthOfItsStrainRate(effect, rate, factor):
+    fe = drawnBar(rate, .95, rateEffect=effect)
+    # 200 steps from the strength of a slow test on, if the critical step permits.
+    O.dt = min(O.dt, max(factor - 1, .2) * kConcreteStrength / kYoung / rate / 200)
+    assert peak(fe) / kConcreteStrength == pytest.approx(factor, rel=.01)
+    table = yadefrag.crackTable(fe)
+    assert table['strength'] / kConcreteStrength == pytest.approx(np.full(len(table), factor), rel=.01)
+    assert table['energy'] / kConcreteEnergy == pytest.approx(np.full(len(table), factor), rel=.01)
+
+
+def test_theEnergyFollowsByItsPower():
+    for power in (0, .5, 2):
+        O.reset()
+        fe = drawnBar(50, .95, rateEffect='ceb-fip-2010', rateEnergyPower=power)
+        peak(fe)
+        table = yadefrag.crackTable(fe)
+        assert table['energy'] / kConcreteEnergy == pytest.approx((table['strength'] / kConcreteStrength)**power, rel=1e-9)
+
+
+def test_anEffectMultipliesWhatAnEdgeHas():
+    """Strength by place, scatter, and that of a joint."""
+    O.materials.append(concrete(rateEffect=[(1e-3, 2), (1e3, 2)], strengthScatter=.1))
+    fe = w.FESolver()
+    fe.addPolygon(yadefrag.rectangle((0, 0), (kConcreteLength, kConcreteHeight)), size=.005, material=0,
+                  strength=lambda x, y: kConcreteStrength / 2, joints=[((kConcreteLength / 2, -1), (kConcreteLength / 2, 1))],
+                  jointStrength=kConcreteStrength / 4, jointEnergy=kConcreteEnergy,
+                  velocity=lambda x, y: (50 * x, 0), fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .2 * fe.criticalTimeStep()
+    while fe.numCracks < 20:
+        O.run(10, True)
+    table = yadefrag.crackTable(fe)
+    isJoint = abs(table['x'] - kConcreteLength / 2) < 1e-5
+    assert isJoint.any() and table['strength'][isJoint] == pytest.approx(np.full(isJoint.sum(), kConcreteStrength / 2))
+    others = table['strength'][~isJoint] / kConcreteStrength
+    assert len(others) and (others > .89).all() and (others < 1.11).all() and np.ptp(others) > 1e-3
+
+
+def test_messagesAndTheStepCountTheLargestFactor():
+    zone = kYoung * kConcreteEnergy / kConcreteStrength**2  # .33 m
+    said = {}
+    for effect in ('none', 'ceb-fip-2010'):
+        O.reset()
+        O.materials.append(concrete(rateEffect=effect))
+        fe = w.FESolver()
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter('always')
+            fe.addPolygon(yadefrag.rectangle((0, 0), (.8, .7)), size=zone / 10, material=0)
+        said[effect] = [str(one.message) for one in caught]
+    assert said['none'] == []
+    assert len(said['ceb-fip-2010']) == 1
+    assert ', with the factor 4.15 of rateEffect: the cohesive zone is 0.08031 m long' in said['ceb-fip-2010'][0]

@@ -11,7 +11,7 @@ import yadefrag
 from fe_impact import brittle, engines
 from fe_scene import pixelContour
 from yade import wrapper as w
-from yadefrag.fe.simplify import simplified
+from yadefrag.fe.geometry import simplified
 
 O = builtins.O
 
@@ -146,20 +146,6 @@ def test_theRefusalStatesTheOverlapAndARemedyThatHelps():
         solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='m')
 
 
-@pytest.mark.parametrize('given, sentence', [
-    (dict(snap=-1), 'snap is -1, it must be 0, a positive number'),
-    (dict(snap='x'), "snap is 'x', it must be"),
-    (dict(snap=.1, displacement=lambda x, y: (0, 0)), 'snap and displacement are both given'),
-    (dict(snap=2.), 'would collapse; it must be less than half its width'),
-])
-def test_wrongTolerancesAreRefused(given, sentence):
-    solver = solverOf()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='m')
-    with pytest.raises(ValueError, match=sentence):
-        solver.addPolygon(yadefrag.rectangle((1, .4), (1.1, .5)), size=.1, material='m', **given)
-    assert len(solver.surfaces) == 1
-
-
 # --- outlines that are given the same points; bonds
 
 def test_gapsAreClosedOnRequest():
@@ -206,30 +192,6 @@ def test_grainsAndHolesAreGivenTheSamePoints():
     assert solver.bondAll(.01, 1e6, 1e4) == 30
 
 
-def test_bondsOfASnappedWallCarryLoadAsOneBodyDoes():
-    """Drawn evenly, the stress is that of one body, and momentum and energy are kept."""
-    wall = touching.rounded(touching.rubbleMasonry(3, 2), 3)
-    shapes, _ = yadefrag.snapOutlines(wall, .004)
-    top = max(y for shape in shapes for _, y in shape)
-    solver = solverOf()
-    for shape in shapes:
-        solver.addPolygon(shape, size=.03, material='m', velocity=lambda x, y: (x - .5, 0))
-    solver.bondAll(.004, 1e8, 1e6)
-    engines(solver, factor=.4)
-    momentum = (solver.masses[:, None] * solver.velocities).sum(0)
-    energy = solver.energy['total']
-    O.run(20, True)
-    assert len(solver.fragments(held=True)) == 1
-    middles = solver.nodes[solver.triangles].mean(axis=1)
-    inside = (abs(middles[:, 0] - .5) < .35) & (abs(middles[:, 1] - top / 2) < .03)
-    wanted = 1e9 * .8 / 1.2 / .6 * O.time
-    assert 20 * O.dt * 750 < top / 2 - .03 and inside.sum() > 20
-    assert solver.stress[inside, 0] == pytest.approx(wanted, rel=.02)
-    after = (solver.masses[:, None] * solver.velocities).sum(0)
-    assert np.abs(after - momentum).max() < 1e-9 * solver.masses.sum()
-    assert solver.energy['total'] == pytest.approx(energy, rel=1e-4)
-
-
 def test_aCoarserBodyIsGivenTheNodesOfAFinerOne():
     """Its mesh then is even, other than where bond divides its sides."""
     solver = solverOf()
@@ -237,17 +199,6 @@ def test_aCoarserBodyIsGivenTheNodesOfAFinerOne():
     solver.addPolygon(yadefrag.rectangle((1, 0), (2, 1)), size=.08, material='m', snap=1e-6)
     triangles = len(solver.triangles)
     assert solver.bond(0, 1, 1e6, 1e4) == 20 and len(solver.triangles) == triangles
-
-
-@pytest.mark.parametrize('given, sentence', [
-    ((3, 1.), 'shapes is 3, it must be a list of outlines'),
-    (([[(0, 0), (1, 0)]], 1.), r'shapes\[0\]'),
-    (([[(0, 0), (1, 0), (1, 1)]], 0), 'tolerance is 0, it must be a positive number'),
-    (([[(0, 0), (1, 0), (1, 1)], [(1, 0), (1.01, 0), (1, .01)]], .1), 'would collapse'),
-])
-def test_wrongOutlinesAreRefused(given, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        yadefrag.snapOutlines(*given)
 
 
 # --- joints

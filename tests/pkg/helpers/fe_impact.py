@@ -1,10 +1,13 @@
-"""A disc that hits a brittle block, ready to run, for the tests of cracks; what must hold then."""
+"""Bodies that are hit, ready to run, for the tests of cracks: a brittle block, a plate of steel, a wall; what
+must hold then."""
 import builtins
 
 import numpy as np
 
 import fe_chain as chain
+import fe_scene
 import yadefrag
+from fe_scene import steps  # noqa: F401  for tests
 from yade import wrapper as w
 
 O = builtins.O
@@ -17,15 +20,7 @@ def brittle(**values):
 
 
 def engines(solver, finder='LebesgueCollider', factor=.5):
-    made = [w.ForceResetter()]
-    if finder:
-        made.append(getattr(w, finder)([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
-    made += [w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        solver, w.NewtonIntegrator(damping=0)]
-    O.engines = made
-    O.dt = factor * solver.criticalTimeStep()
+    fe_scene.run(solver, finder and fe_scene.finder(finder), spheres=True, factor=factor)
 
 
 def impact(finder='LebesgueCollider', threads=1, speed=20, smooth=True, **values):
@@ -41,6 +36,39 @@ def impact(finder='LebesgueCollider', threads=1, speed=20, smooth=True, **values
     return solver
 
 
+STEEL = dict(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6, hardeningExponent=.26,
+             rateFactor=.014, thermalExponent=1.03, meltTemperature=1793, heatCapacity=477)
+FAILS = dict(failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, failureD5=.61, fractureEnergy=2e4)
+
+
+def plate(**material):
+    """A plate of steel, 2 mm thick and held at both ends, that a harder bar plugs."""
+    O.materials.append(w.PlasticFEMat(**{**STEEL, **material}))
+    O.materials.append(w.FEMat(young=600e9, poisson=.22, density=15000))
+    solver = w.FESolver(passes=2)
+    solver.addPolygon(yadefrag.rectangle((-.012, 0), (.012, .002)), size=5e-4, material=0,
+                      fixed=lambda x, y: abs(x) > .0119)
+    solver.addPolygon(yadefrag.rectangle((-.003, .002), (.003, .006)), size=1e-3, material=1, velocity=(0, -500))
+    O.engines = yadefrag.engines(solver)
+    O.dt = .7 * solver.criticalTimeStep()
+    return solver
+
+
+def wallAndClump(young=2e9, fixed=lambda x, y: abs(y) > .5 - 1e-9):
+    """A brittle wall, and a clump of three spheres that hits it at 40 m/s."""
+    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2400, frictionAngle=.3,
+                                      tensileStrength=3e6, strengthScatter=.1, label='wall'))
+    O.materials.append(w.FrictMat(young=young, poisson=.3, density=2400, frictionAngle=.3, label='s'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, -.5), (.1, .5)), size=.02, material='wall', fixed=fixed)
+    number, _ = O.bodies.appendClumped([chain.ball(at, .05, O.materials['s'])
+                                        for at in ((-.051, .01), (-.09, .07), (-.09, -.05))])
+    clump = O.bodies[number]
+    clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
+    engines(solver, factor=.2)
+    return solver, clump
+
+
 def heapSpheres():
     """Six spheres that fall on the block, beside the disc; they take half the time step."""
     for i in range(6):
@@ -49,11 +77,6 @@ def heapSpheres():
         ball.state.vel = (0, -5, 0)
         O.bodies.append(ball)
     O.dt *= .5
-
-
-def steps(count):
-    for _ in range(count):
-        O.step()
 
 
 def state(solver):

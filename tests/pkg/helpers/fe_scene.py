@@ -4,6 +4,7 @@ import builtins
 import numpy as np
 
 import yadefrag
+from yade import utils
 from yade import wrapper as w
 
 O = builtins.O
@@ -54,18 +55,42 @@ def impact(name=None, smooth=False, **settings):
     return solver
 
 
-def momentum(solver):
-    """(linear (2,), angular) of the nodes, and of the spheres."""
+def blow(held=False, **settings):
+    """Two blocks of 1 cm that meet at 20 m/s; `held`: all their nodes keep their velocities."""
+    O.materials.append(w.FEMat(young=210e9, poisson=.3, density=7800))
+    solver = w.FESolver(**settings)
+    for k in range(2):
+        nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
+        solver.addTriangles(nodes, triangles, material=0, velocity=(20 * (1 - k), 0), fixed=lambda x, y: held)
+    run(solver, finder('LebesgueCollider'))
+    return solver
+
+
+def throwBall(place, radius, velocity=(0, 0), material='m', spin=0, blocked='zXY'):
+    """A sphere's body, which is in the scene and moves in the plane, unless other directions are blocked."""
+    body = utils.sphere((float(place[0]), float(place[1]), 0), radius, material=material)
+    body.state.vel, body.state.angVel, body.state.blockedDOFs = (*velocity, 0), (0, 0, spin), blocked
+    O.bodies.append(body)
+    return body
+
+
+def momentum(solver, bodies=None):
+    """(linear (2,), angular about the origin) of the nodes, and of the spheres or other bodies."""
     m, x, v = solver.masses, solver.nodes, solver.velocities
     linear = (m[:, None] * v).sum(0)
     angular = (m * (x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0])).sum()
-    for b in O.bodies:
-        if isinstance(b.shape, w.Sphere):
-            s = b.state
-            linear = linear + s.mass * np.array(s.vel)[:2]
-            angular += s.mass * (s.pos[0] * s.vel[1] - s.pos[1] * s.vel[0])
-            angular += s.inertia[2] * s.angVel[2]
+    for b in [b for b in O.bodies if b and isinstance(b.shape, w.Sphere)] if bodies is None else bodies:
+        s = b.state
+        linear = linear + s.mass * np.array(s.vel)[:2]
+        angular += s.mass * (s.pos[0] * s.vel[1] - s.pos[1] * s.vel[0])
+        angular += s.inertia[2] * s.angVel[2]
     return linear, angular
+
+
+def kineticEnergy(*bodies):
+    """(J) Of rigid bodies."""
+    return builtins.sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
+                        for b in bodies)
 
 
 def pixelContour(count, radius):

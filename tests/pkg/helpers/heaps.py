@@ -1,4 +1,4 @@
-"""A heap of spheres with a clump on fixed bodies, and all bits of a scene, for tests of loop and integrator."""
+"""A heap of spheres with a clump on fixed bodies, a packing, and all bits of a scene, for tests of loop and integrator."""
 import numpy as np
 import yade.wrapper as w
 from yade import utils
@@ -27,6 +27,19 @@ def heap(material=None, periodic=False, spacing=1.45):
         O.bodies.append([utils.facet([(-30, -30, 0), (30, -30, 0), (0, 40, 0)]),
                          utils.box((0, 4, 1), (.8, 6, 1), fixed=True), utils.wall(9.5, axis=1)])
     O.dt = 2e-4
+
+
+def packing(shape, spacing, dt, isTurning=False, seed=2):
+    """Spheres with friction in random motion, in an order that is not that of their places."""
+    scenes.clear()
+    chance = np.random.default_rng(seed)
+    places = np.array(list(np.ndindex(shape))) * spacing
+    chance.shuffle(places)
+    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    scenes.addSpheres(places, [.5] * len(places), chance.normal(0, 2, (len(places), 3)), dynamic=True)
+    for body in O.bodies if isTurning else ():
+        body.state.angVel = chance.normal(0, 3, 3)
+    O.dt = dt
 
 
 def state():

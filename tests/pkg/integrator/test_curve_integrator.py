@@ -1,7 +1,6 @@
-"""CurveIntegrator in the place of YADE's NewtonIntegrator: the same bits, whatever bodies the scene has."""
-import json
+"""CurveIntegrator in the place of YADE's NewtonIntegrator: the same bits, whatever bodies the scene has.
+Threads: test_threads.py."""
 import os
-import subprocess
 
 import numpy as np
 import pytest
@@ -11,19 +10,12 @@ from yade.minieigenHP import Matrix3, Quaternion, Vector3
 
 import scenes
 from heaps import heap, state
-from project import yadeCommand
 from scenes import O
-
-kHere = os.path.dirname(os.path.abspath(__file__))
 
 
 def engines(name, **settings):
     newton = getattr(w, name)(**dict(dict(damping=.1, gravity=(1, 2, -10)), **settings))
-    loop = w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-         w.Ig2_Wall_Sphere_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
-    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop, newton]
+    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), scenes.loop(), newton]
     return newton
 
 
@@ -161,20 +153,6 @@ def test_changesFromPython():
             O.bodies[30].aspherical = True
             O.dt *= .5
     requireSame(change=change)
-
-
-def test_manyBodiesThreads():
-    """yade -j1, -j2, -j3: the same bits as YADE's integrator with one thread."""
-    found = []
-    for number in (1, 2, 3):
-        done = subprocess.run([*yadeCommand(), f'-j{number}', os.path.join(kHere, 'integrator_threads.py')],
-                              capture_output=True, text=True, timeout=300)
-        lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ ')]
-        assert done.returncode == 0 and len(lines) == 1, done.stdout[-1500:] + done.stderr[-1500:]
-        found.append(json.loads(lines[0]))
-    assert found[0]['NewtonIntegrator'] == found[0]['CurveIntegrator']
-    for one in found[1:]:
-        assert one == found[0]
 
 
 def test_savedAndLoaded(folder):

@@ -2,16 +2,13 @@
 import builtins
 import csv
 import os
-import subprocess
 import xml.etree.ElementTree as tree
 
 import meshio
-import numpy as np
 import pytest
 
 import yadefrag
 from fe_scene import fe, solverOfScene, steps
-from yade import utils
 from yade import wrapper as w
 
 O = builtins.O
@@ -123,18 +120,7 @@ def test_otherFilesOfThisNameAreReplaced(folder):
     assert len(table(file)) == len(series(file)) == 1
 
 
-@pytest.fixture
-def small(folder):
-    """A disk of 32 KB."""
-    disk = folder + '/disk'
-    os.mkdir(disk)
-    if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=32k', 'none', disk],
-                      capture_output=True).returncode:
-        pytest.skip('no disk can be mounted here')
-    yield disk
-    subprocess.run(['umount', disk], check=True)
-
-
+@pytest.mark.parametrize('small', ['32k'], indirect=True)
 def test_aFullDiskIsASentenceAndTheRunGoesOn(small, capfd):
     file = small + '/run'
     scene(file)
@@ -174,21 +160,6 @@ def test_wrongRecordersAreRefused(settings, error, folder):
 
 # --- engines
 
-def test_enginesWithSpheres():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', fixed=lambda x, y: y < 1e-9)
-    O.engines = yadefrag.engines(solver, gravity=(0, -9.81), spheres=True)
-    O.bodies.append(utils.sphere((.5, 1.2, 0), .1, material='m'))
-    O.bodies[-1].state.blockedDOFs = 'zXY'
-    O.dt = .2 * min(solver.criticalTimeStep(), utils.PWaveTimeStep())
-    assert tuple(solver.gravity) == tuple(O.engines[-1].gravity) == (0, -9.81, 0)
-    touched = False
-    while solver.time < .2:
-        steps(10)
-        touched = touched or any(i.isReal for i in O.interactions)
-    assert touched and O.bodies[-1].state.pos[1] > 1.05 and solver.warnings == []
-
-
 def test_enginesTakeTheSolversGravity():
     solver = fe(gravity=(1, -2))
     first, last = yadefrag.engines(solver), yadefrag.engines(solver, spheres=True, damping=.3)
@@ -219,15 +190,3 @@ def test_callsDoNotWaitForYadesPolling(monkeypatch):
     monkeypatch.setattr(w.Omega, 'wait', lambda self: waited.append(O.iter))
     assert yadefrag.runSteps(200, every=1, call=lambda: called.append(O.iter)) == 200
     assert called == list(range(1, 201)) and waited == []
-
-
-def test_runsThatStopAreReported():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    O.engines = yadefrag.engines(solver)
-    O.dt = 2 * solver.criticalTimeStep()
-    for _ in range(2):
-        with pytest.raises(RuntimeError, match='The run stopped in step 0'):
-            yadefrag.runSteps(10)
-    O.dt /= 4
-    assert yadefrag.runSteps(10) == 10

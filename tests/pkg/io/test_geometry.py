@@ -1,15 +1,23 @@
-"""The outlines that yadefrag.geometry makes and reads."""
-
+"""The outlines that yadefrag.geometry makes and reads; outlines with fewer points, within a distance. Grains: they fill
+their outline, and neighbours share their sides to the last bit."""
 import math
+import random
+import sys
 
+import numpy as np
 import pytest
 
+import yadefrag
+from outline_files import area, offLine
+from yadefrag import _yadefrag
 from yadefrag.fe import geometry
+from yadefrag.fe.geometry import simplified
+from yadefrag.fe.grains import grainJoints, voronoi
 from yadefrag.io import outlines
 
-
-def area(loop):
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(loop, loop[1:] + loop[:1])) / 2
+kAngle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+kPlate = geometry.rectangle((0, 0), (2, 2))
+kDisc = geometry.circle((1, 1), 1, 40)
 
 
 def isOneSentence(error):
@@ -79,3 +87,215 @@ def test_badPolygonFileNamesTheLine(folder, text, line):
         outlines.readPolygon(path)
     assert path in str(error.value) and line in str(error.value)
     assert str(error.value).endswith('.')
+
+
+def contour(count, isInside):
+    """Loops around the pixels whose middle is inside, the longest first, with a point at each corner of a pixel."""
+    def isIn(i, j):
+        return 0 <= i < count and 0 <= j < count and isInside(i + .5, j + .5)
+    after = {}
+    for i, j in np.ndindex(count, count):
+        if isIn(i, j):
+            corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+            beside = [(i, j - 1), (i + 1, j), (i, j + 1), (i - 1, j)]
+            after.update((corners[k], corners[(k + 1) % 4]) for k in range(4) if not isIn(*beside[k]))
+    loops = []
+    while after:
+        at, loop = min(after), []
+        while at in after:
+            loop.append(at)
+            at = after.pop(at)
+        loops.append(np.array(loop, dtype=float))
+    return sorted(loops, key=len, reverse=True)
+
+
+def square(x, y, angle, side):
+    c, s = math.cos(angle), math.sin(angle)
+    return max(abs(c * x + s * y), abs(c * y - s * x)) < side
+
+
+# A disc with a turned square hole and a round one; a turned square with a square hole along the pixels.
+kPixelDisc = contour(200, lambda x, y: math.hypot(x - 100, y - 100) < 90 and not square(x - 70, y - 100, .35, 20) and
+                     math.hypot(x - 145, y - 105) > 15)
+kPixelSquare = contour(220, lambda x, y: square(x - 110, y - 110, math.pi / 6, 70) and
+                       not square(x - 110, y - 110, 0, 10))
+
+
+def fewer(loops, tolerance, flags=None):
+    outline, holes, _ = simplified(loops[0], loops[1:], tolerance, flags)
+    return [outline, *holes]
+
+
+def shareKept(loops, tolerance):
+    """Of the points, after a check of the result."""
+    simple = fewer(loops, tolerance)
+    _yadefrag.checkedPolygon(simple[0], simple[1:])  # no crossings, holes inside
+    farthest = max(map(offLine, loops, simple))
+    assert farthest <= tolerance * (1 + 1e-12) and len(simple) == len(loops)
+    assert all(np.array_equal(one, other) for one, other in zip(simple, fewer(loops, tolerance)))
+    return sum(map(len, simple)) / sum(map(len, loops))
+
+
+def test_contoursOfPixels():
+    # A chord of a circle of 90 may be √(8·90) = 27 long for a sagitta of 1; the pixels' own corners take half of
+    # that. Measured: a thirteenth and a twenty-eighth of the points.
+    assert len(kPixelDisc) == 3 and len(kPixelSquare) == 2
+    assert shareKept(kPixelDisc, 1) < .1 and shareKept(kPixelDisc, 2) < .05 and shareKept(kPixelDisc, .3) < 1
+    assert shareKept(kPixelSquare, 1.5) < .02
+    assert [len(loop) for loop in fewer(kPixelSquare, 1.5)] == [4, 4] and len(fewer(kPixelSquare, 1e-9)[1]) == 4
+
+
+def test_anyScale():
+    wanted = fewer(kPixelDisc, .8)
+    for scale in 2.**-300, 2.**300:
+        found = fewer([loop * scale for loop in kPixelDisc], .8 * scale)
+        assert all(np.array_equal(one, other * scale) for one, other in zip(found, wanted))
+
+
+def test_holesStayInside():
+    """A thin wall between a wavy outline and a hole: with the tolerance alone they would cross."""
+    outline = [(i, 0 if i % 2 == 0 else -.8) for i in range(40)] + [(39, 20), (0, 20)]
+    hole = [(i - .01, .1 if i % 2 == 0 else -.7) for i in range(39, 0, -1)] + [(.3, 10), (38, 10)]
+    shareKept([np.array(outline, dtype=float), np.array(hole[::-1])], 1)
+
+
+def test_stonesInMortar():
+    """Walls of one pixel between round holes, of which the simplified ones would cross."""
+    places = [(x, y) for x in range(12, 120, 21) for y in range(12, 120, 21)]
+    loops = contour(130, lambda x, y: all(math.hypot(x - a, y - b) > 10.1 for a, b in places))
+    assert len(loops) == 37 and shareKept(loops, 2.4) < .25
+
+
+def test_straightCornersBesideSmoothOnesStay():
+    circle = np.array(yadefrag.circle((0, 0), 1, 400))
+    flags = np.ones(400, dtype=bool)
+    flags[[13, 14]] = False
+    outline, _, stay = simplified(circle, [], .01, flags)
+    assert len(outline) < 40 and len(stay) == len(outline)
+    assert {tuple(circle[i]) for i in (0, 13, 14)} <= set(map(tuple, outline)) and (~stay).sum() == 2
+
+
+def test_cornersBetweenLongEdgesStay():
+    outline = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=float)
+    assert np.array_equal(fewer([outline], .2)[0], outline)
+
+
+def test_simplifiedContourMeshesAtItsSize():
+    rough, even = (yadefrag.polygonMesh(kPixelDisc[0], kPixelDisc[1:], size=8, simplify=one) for one in (None, 1))
+    assert len(even.triangles) < len(rough.triangles) / 4
+
+
+def test_impossibleTolerances(monkeypatch):
+    plate = [np.array(yadefrag.rectangle(*corners), dtype=float)
+             for corners in (((0, 0), (4, 2)), ((1, 1), (1.2, 1.2)))]
+    for loops, tolerance, words in (
+            (plate, 0, 'simplify is 0, it must be a positive number'), (plate, math.nan, 'simplify is nan'),
+            (plate, .7, 'the outline could vanish; it must be less than'), (plate, .05, 'hole 0 could vanish'),
+            ([np.array([(0, 0), (1, 1), (1, 0), (0, 1)], dtype=float)], .01, 'vertex')):
+        with pytest.raises(ValueError, match=words):
+            fewer(loops, tolerance)
+    assert len(fewer(plate, .049)[1]) == 4
+    monkeypatch.setitem(sys.modules, 'shapely.geometry', None)
+    with pytest.raises(ImportError, match="simplify works only .* install Debian's package python3-shapely[.]$"):
+        fewer(plate, .01)
+
+
+def sidesOf(loop):
+    return list(zip(loop, loop[1:] + loop[:1]))
+
+
+def star(seed):
+    draw = random.Random(seed)
+    return [(r * x, r * y) for (x, y), r in ((p, draw.uniform(.3, 1)) for p in geometry.circle((0, 0), 1, 30))]
+
+
+def checkGrains(outline, grains):
+    """They are simple, and fill the outline; each side is that of a neighbour, or on the outline."""
+    for grain in grains:
+        _yadefrag.checkedPolygon(grain, [])
+        assert area(grain) > 0
+    whole = abs(area(outline))
+    assert sum(map(area, grains)) == pytest.approx(whole, rel=1e-12)
+    every = [side for grain in grains for side in sidesOf(grain)]
+    sides = set(every)
+    assert len(sides) == len(every)
+    alone = sum(math.dist(a, b) for a, b in sides if (b, a) not in sides)
+    assert alone == pytest.approx(sum(math.dist(*side) for side in sidesOf(outline)), rel=1e-12)
+
+
+def spread(grains):
+    areas = list(map(area, grains))
+    mean = sum(areas) / len(areas)
+    return math.sqrt(sum(one * one for one in areas) / len(areas) / mean**2 - 1)
+
+
+@pytest.mark.parametrize('outline', [geometry.rectangle((0, 0), (2, 1)), kAngle, kDisc, star(1), star(2), kAngle[::-1],
+                                     [(1e6 + x, y - 1e5) for x, y in kAngle]])
+def test_grainsFillTheirOutline(outline):
+    for n in 1, 2, 3, 10, 200:
+        grains = voronoi(outline, n, seed=3)
+        checkGrains(outline, grains)
+        assert voronoi(outline, n, seed=3) == grains and len(grains) >= n
+    assert voronoi(outline, 50, 9) != voronoi(outline, 50, 10)
+    assert voronoi(outline, 50, 9, 2) == voronoi(outline, 50, 9, 2)
+    checkGrains(outline, voronoi(outline, 100, 4, rounds=3))
+
+
+def test_roundsMakeGrainsEven():
+    # Areas of random cells differ by 0.53 of their mean (Gilbert 1962: 0.529).
+    assert spread(voronoi(kPlate, 400, 2)) == pytest.approx(.53, abs=.06)
+    assert spread(voronoi(kPlate, 400, 2, 5)) < .3
+    assert spread(voronoi(kAngle, 100, 2, 20)) < .15
+
+
+@pytest.mark.parametrize('outline', [kPlate, kAngle, kDisc])
+def test_shortSidesShrinkToPoints(outline):
+    def least(grains):
+        return min(math.dist(*side) for grain in grains for side in sidesOf(grain))
+    given, grains = voronoi(outline, 150, 6), voronoi(outline, 150, 6, shortest=.02)  # .16 across
+    checkGrains(outline, grains)
+    assert least(grains) >= .02 and least(given) < .002 and len(grains) + 5 >= len(given)
+    assert voronoi(outline, 30, 1, shortest=1e-12) == voronoi(outline, 30, 1)
+
+
+def test_grainsOfAnySize():
+    assert len(voronoi([(0, 0), (1e-100, 0), (1e-100, 1e-100)], 10)) == 10
+    assert len(voronoi([(0, 0), (1e150, 0), (1e150, 1e150)], 10)) == 10
+
+
+def test_missingLibraryIsNamed(monkeypatch):
+    monkeypatch.setitem(sys.modules, 'shapely.ops', None)
+    with pytest.raises(ImportError, match="voronoi works only with .* install Debian's package python3-shapely[.]$"):
+        voronoi(kPlate, 3)
+
+
+def test_grainsShareSides():
+    outline = geometry.rectangle((0, 0), (2, 1))
+    grains = voronoi(outline, 20)
+    joints = grainJoints(grains)
+    inner = sum(math.dist(*side) for side in joints)
+    around = sum(math.dist(a, b) for g in grains for a, b in zip(g, g[1:] + g[:1]))
+    assert around == pytest.approx(2 * inner + 6, rel=1e-12)
+    assert grainJoints(grains[:1]) == []
+
+
+@pytest.mark.parametrize('call, words', [
+    (lambda: voronoi([(0, 0), (1, 0)], 3), ('outline', '2 points')),
+    (lambda: voronoi([(0, 0), (1, 1), (1, 0), (0, 1)], 3), ('vertex', 'outline')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 0), ('n is 0', 'positive whole')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 10**6), ('n is 1000000', 'at most')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 3, seed=-1), ('seed is -1', '0 or more')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 3, rounds=1.5), ('rounds is 1.5', 'whole')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 3, shortest=-1), ('shortest is -1', '0 or a')),
+    (lambda: voronoi(geometry.rectangle((0, 0), (1, 1)), 30, shortest=.8),
+     ('shortest is 0.8 m, too long for these grains',)),
+    (lambda: voronoi([(0, 0), (1, 1), (1 + 1e-9, 1)], 3), ('no room for 3 grains',)),
+    (lambda: voronoi([(1e17, 1e17), (1e17 + 64, 1e17), (1e17, 1e17 + 64)], 50), ('too far from the origin',)),
+    (lambda: grainJoints(3), ('grains is 3', 'list of outlines')),
+    (lambda: grainJoints([[(0, 0)]]), ('grains[0]', '1 points')),
+])
+def test_wrongGrainsAreRefused(call, words):
+    with pytest.raises(ValueError) as error:
+        call()
+    text = str(error.value)
+    assert text.endswith('.') and text.count('. ') == 0 and all(word in text for word in words)

@@ -1,15 +1,42 @@
-"""Elements of mesh files that are no proper ones: each is named by its number in the file and the cause."""
+"""Elements of mesh files that are no proper ones: each is named by its number in the file and the cause. Parts of one mesh
+without common nodes: they may touch, but not overlap. Abaqus' parts, instances and sets, and what its files have that
+meshio loses."""
+import builtins
+import math
+import os
+import random
 import warnings
 
+import numpy as np
 import pytest
 
-from test_mesh_files import areas, written
-from yadefrag import readMesh
+from fe_scene import fe
+from outline_files import written
+from test_mesh_files import areas
+from yadefrag import readMesh, rectangleMesh
 
 kPlaces = {1: (0, 0), 2: (1, 0), 3: (2, 0), 4: (0, 1), 5: (1, 1), 6: (2, 1), 7: (1, .6), 8: (1, 0), 9: (.3, .2),
            10: (.5, 0)}
 kKinds = {2: '1', 3: '2', 4: '3', 6: '9', 8: '16'}  # gmsh's, by the number of nodes
 kAbaqus = {3: 'CPS3', 4: 'CPE4', 6: 'CPS6', 8: 'CPS8'}
+O = builtins.O
+kSentence = 'two parts of the mesh, without common nodes, overlap at'
+# A unit square of two triangles.
+kUnitSquare = '''*Node
+1, 0., 0.
+2, 1., 0.
+** a comment between the nodes
+3, 1., 1.
+4, 0., 1.
+*Element, type=CPS3, elset=low
+1, 1, 2, 3
+*Element, type=cps3, elset=high
+2, 1, 3, 4
+*Nset, nset=left, generate
+1, 4, 3
+*Elset, elset=all
+low, high
+'''
 
 
 def gmsh(elements):
@@ -101,3 +128,255 @@ def test_linesBesideTrianglesAreTold(folder):
 def test_elementWithAMissingNodeIsNamed(read):
     with pytest.raises(ValueError, match='element 12 has the node 99, which does not exist'):
         read({11: (1, 2, 5), 12: (2, 3, 99)})
+
+
+def joined(*parts):
+    nodes, triangles = [], []
+    for own, of in parts:
+        triangles.append(np.asarray(of, dtype=np.int64) + sum(map(len, nodes)))
+        nodes.append(own)
+    return np.concatenate(nodes), np.concatenate(triangles)
+
+
+def moved(part, shift, angle=0.):
+    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    return part[0] @ turn + shift, part[1]
+
+
+kBar = rectangleMesh((0, 0), (4, 1), 8, 2)
+kThin = rectangleMesh((0, 0), (4, .2), 4, 1)
+
+
+@pytest.mark.parametrize('other', [
+    moved(kBar, (0, 0)), moved(kBar, (1, 0)), moved(kBar, (.3, .2)), moved(kBar, (3.9, 0)), moved(kBar, (0, .95)),
+    moved(kThin, (0, .4)), moved(kThin, (1, -2), 1.5), rectangleMesh((1.1, .3), (1.2, .4), 1, 1),
+    rectangleMesh((-1, -1), (5, 2), 1, 1), moved(kBar, (2, .5), .7)])
+def test_overlapIsRefused(other):
+    for parts in ((kBar, other), (other, kBar)):
+        with pytest.raises(ValueError, match=kSentence):
+            fe().addTriangles(*joined(*parts), material='m')
+    assert len(O.bodies) == 0
+
+
+@pytest.mark.parametrize('other', [
+    moved(kBar, (4, 0)), moved(kBar, (0, 1)), moved(kBar, (.25, 1)), moved(kBar, (4, 1)), moved(kThin, (0, -.2)),
+    moved(kBar, (9, 9), .3), moved(rectangleMesh((0, 0), (3, 3), 1, 1), (4, -1))])
+def test_partsMayTouch(other):
+    solver = fe()
+    solver.addTriangles(*joined(kBar, other), material='m')
+    assert len(solver.surfaces) == 2
+
+
+def test_aPartInAHoleIsApart():
+    nodes, triangles = rectangleMesh((0, 0), (3, 3), 3, 3)
+    middle = nodes[triangles].mean(axis=1)
+    ring = triangles[~((abs(middle - 1.5) < .5).all(axis=1))]
+    fe().addTriangles(*joined((nodes, ring), rectangleMesh((1.1, 1.1), (1.9, 1.9), 2, 2)), material='m')
+
+
+def test_randomPlacesAgainstSamples():
+    """Overlap by a fine grid of points in both."""
+    draw, count = random.Random(3), 0
+    for _ in range(60):
+        shift, angle = (draw.uniform(-1, 5), draw.uniform(-1, 2)), draw.uniform(0, 2 * math.pi)
+        size = draw.choice([.2, 1, 2.5])
+        other = moved(rectangleMesh((0, 0), (size, size), 2, 2), shift, angle)
+        u = np.stack(np.meshgrid(*[np.linspace(0, size, 81)[1:-1]] * 2), axis=-1).reshape(-1, 2)
+        places = moved((u, None), shift, angle)[0]
+        depth = np.min([places[:, 0], 4 - places[:, 0], places[:, 1], 1 - places[:, 1]], axis=0).max()
+        if abs(depth) < .02:
+            continue
+        try:
+            fe().addTriangles(*joined(kBar, other), material='m')
+            found = False
+        except ValueError:
+            found = True
+        O.reset()
+        assert found == (depth > 0), (shift, angle, size, depth)
+        count += found
+    assert 10 < count < 50
+
+
+def assembled(parts, instances, sets=''):
+    """Text of parts {name: text} and instances [(name, part, lines of its place)]."""
+    text = '*Heading\n title, with a comma\n'
+    for name, lines in parts.items():
+        text += '*Part, name=%s\n%s*End Part\n' % (name, lines)
+    text += '*Assembly, name=Assembly\n'
+    for name, part, place in instances:
+        text += '*Instance, name=%s, part=%s\n%s*End Instance\n' % (name, part, place)
+    return text + sets + '*End Assembly\n*Step\n*Static\n*End Step\n'
+
+
+def points(mesh, name):
+    return sorted(map(tuple, mesh.nodes[mesh.nodeSets[name]].round(9).tolist()))
+
+
+def test_partOnceForEachInstance(folder):
+    mesh = readMesh(written(folder, 'a.inp', assembled(
+        {'P': kUnitSquare}, [('P-1', 'P', ''), ('P-2', 'p', '5., 0., 0.\n'),
+                         ('P-3', 'P', '0., 10., 0.\n0., 10., 0., 0., 10., 1., 90.\n')])))
+    assert len(mesh.nodes) == 12 and areas(mesh).tolist() == [.5] * 6
+    assert points(mesh, 'P-1.left') == [(0, 0), (0, 1)]
+    assert points(mesh, 'P-2.left') == [(5, 0), (5, 1)]
+    assert points(mesh, 'P-3.left') == [(-1, 10), (0, 10)]  # turned by 90° about (0, 10) after the move
+    assert len(points(mesh, 'left')) == 6
+    assert {name: list(of) for name, of in mesh.instances.items()} == \
+        {'P-1': [0, 1], 'P-2': [2, 3], 'P-3': [4, 5]}
+    assert {name: list(of) for name, of in mesh.groups.items()} == \
+        dict(low=[0, 2, 4], high=[1, 3, 5], all=[0, 1, 2, 3, 4, 5])
+
+
+def test_turnedAboutAnyAxis(folder):
+    """Against the rotation matrix of 30° about an axis in the plane's normal through (2, 1), and the axis of
+    the other direction."""
+    for up, sign in ((1, 1), (-3, -1)):
+        mesh = readMesh(written(folder, 'a.inp', assembled(
+            {'P': kUnitSquare}, [('P-1', 'P', '.5, -1.\n2., 1., 7., 2., 1., %d, 30.\n' % (7 + up))])))
+        c, s = math.cos(math.pi / 6), sign * math.sin(math.pi / 6)
+        arms = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) + (.5, -1) - (2, 1)
+        assert mesh.nodes == pytest.approx(arms @ np.array([[c, s], [-s, c]]) + (2, 1), abs=1e-12)
+
+
+def test_turnedOverIsCounterClockwise(folder):
+    mesh = readMesh(written(folder, 'a.inp', assembled(
+        {'P': kUnitSquare}, [('P-1', 'P', '0., 0., 0.\n0., 0., 0., 1., 0., 0., 180.\n')])))
+    assert mesh.nodes.min(axis=0) == pytest.approx([0, -1]) and areas(mesh) == pytest.approx([.5, .5])
+
+
+def test_severalPartsWithSetsOfOneName(folder):
+    other = kUnitSquare.replace('low', 'low2').replace('high', 'high2').replace('nset=left', 'nset=LEFT')
+    mesh = readMesh(written(folder, 'a.inp', assembled(
+        {'P': kUnitSquare, 'Q': other}, [('P-1', 'P', ''), ('Q-1', 'Q', '2, 0, 0\n')])))
+    assert 'left' not in mesh.nodeSets and 'all' not in mesh.groups
+    assert points(mesh, 'P.left') == points(mesh, 'P-1.left') == [(0, 0), (0, 1)]
+    assert points(mesh, 'Q.LEFT') == [(2, 0), (2, 1)]
+    assert list(mesh.groups['low2']) == [2] and list(mesh.groups['Q.all']) == [2, 3]
+
+
+def test_setsOfTheAssembly(folder):
+    sets = ('*Nset, nset=left, instance=P-1\n2, 3\n*Nset, nset=left, instance=P-2\n1\n'
+            '*Nset, nset=both\nP-1.left, P-2.4\n*Elset, elset=one, instance=P-2\n1\n'
+            '*Nset, nset=ofOne, elset=P-2.low\n')
+    mesh = readMesh(written(folder, 'a.inp', assembled(
+        {'P': kUnitSquare}, [('P-1', 'P', ''), ('P-2', 'P', '5., 0., 0.\n')], sets)))
+    assert points(mesh, 'left') == [(1, 0), (1, 1), (5, 0)]
+    assert points(mesh, 'both') == [(0, 0), (0, 1), (5, 1)]
+    assert list(mesh.groups['one']) == [2] and points(mesh, 'one') == [(5, 0), (6, 0), (6, 1)]
+    assert points(mesh, 'ofOne') == points(mesh, 'one')
+
+
+def test_partsWithoutAnInstanceAreTold(folder):
+    text = assembled({'P': kUnitSquare, 'Q': kUnitSquare}, [('P-1', 'P', '')])
+    with pytest.warns(UserWarning, match="left out are the part 'Q' with 2 elements, of which there is no instance"):
+        assert len(readMesh(written(folder, 'a.inp', text)).triangles) == 2
+
+
+def test_partWithoutAssemblyIsReadOnce(folder):
+    mesh = readMesh(written(folder, 'a.inp', '*Part, name=P\n%s*End Part\n' % kUnitSquare))
+    assert areas(mesh).tolist() == [.5, .5] and points(mesh, 'left') == [(0, 0), (0, 1)]
+
+
+def test_nodesInTheInstance(folder):
+    """An instance can have its own mesh."""
+    mesh = readMesh(written(folder, 'a.inp', assembled({'P': ''}, [('P-1', 'P', kUnitSquare)])))
+    assert areas(mesh).tolist() == [.5, .5] and points(mesh, 'left') == [(0, 0), (0, 1)]
+
+
+def test_keywordsSplitOverTheFileAreOneMesh(folder):
+    """Several blocks of nodes, elements over two lines, keywords over two lines, an included file."""
+    written(folder, 'more.inp', '*NODE, NSET=top\n8, 0., 2.\n7, 2., 2.\n')
+    file = written(folder, 'a.inp', '''*NODE
+1, 0., 0.
+2, 2., 0.
+*include, input=more.inp
+*NODE
+5, 1., 0.
+6, 2., 1.
+3, 1., 2.
+4, 0., 1.
+*Element, type=CPE8R,
+ elset="My set"
+10, 1, 2, 7, 8, 5, 6,
+3, 4
+*Element, type=T2D2, elset=bar
+11, 1, 2
+''')
+    with pytest.warns(UserWarning, match='left out are 1 element of the type T2D2'):
+        mesh = readMesh(file)
+    assert areas(mesh).tolist() == [2, 2] and list(mesh.groups) == ['My set']
+    assert points(mesh, 'top') == [(0, 2), (2, 2)] and points(mesh, 'bar') == [(0, 0), (2, 0)]
+    assert mesh.leftOut == ['1 element of the type T2D2']
+
+
+@pytest.mark.parametrize('type, size, area', [
+    ('CPS3', 3, 2), ('CPE3T', 3, 2), ('STRI3', 3, 2), ('S3R', 3, 2), ('M3D3', 3, 2), ('CPS4R', 4, 4), ('CPE4RH', 4, 4),
+    ('CPS4I', 4, 4), ('S4R5', 4, 4), ('R3D4', 4, 4), ('CPEG4', 4, 4), ('CPS6M', 6, 2), ('STRI65', 6, 2),
+    ('CPE6MH', 6, 2), ('CPS8R', 8, 4), ('S8R5', 8, 4), ('S9R5', 9, 4), ('M3D9', 9, 4)])
+def test_typesOfPlaneElements(folder, type, size, area):
+    corners = [(0, 0), (2, 0), (2, 2), (0, 2)][:3 if size in (3, 6) else 4]
+    sides = [tuple(np.mean([a, b], axis=0)) for a, b in zip(corners, corners[1:] + corners[:1])]
+    places = (corners + sides + [(1, 1)])[:size]
+    nodes = ''.join('%d, %g, %g\n' % (i + 1, *place) for i, place in enumerate(places))
+    mesh = readMesh(written(folder, 'a.inp', '*NODE\n%s*ELEMENT, TYPE=%s\n7, %s\n' %
+                            (nodes, type, ', '.join(str(i + 1) for i in range(size)))))
+    assert areas(mesh).sum() == pytest.approx(area) and mesh.leftOut == []
+
+
+@pytest.mark.parametrize('type, size, words', [
+    ('COH2D4', 4, ', which connect parts that are separate here'), ('COH2D4P', 6, ', which connect'),
+    ('GKPE4', 4, ', which connect'), ('CINPE4', 4, ''), ('SPRING2', 2, ''), ('DC1D2', 2, ''), ('CONN2D2', 2, '')])
+def test_elementsWithoutAreaAreLeftOut(folder, type, size, words):
+    """Two parts with a joint without thickness between them, as cracks are made there."""
+    nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (1, 1), (0, 1), (1, 2), (0, 2)]
+    text = '*Part, name=Plate\n*Node\n%s*Element, type=CPE3, elset=below\n1, 1, 2, 3\n2, 1, 3, 4\n' \
+        '*Element, type=CPE3, elset=above\n3, 6, 5, 7\n4, 6, 7, 8\n*Element, type=%s, elset=joint\n5, %s\n' \
+        '*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=Plate\n*End Instance\n*End Assembly\n' % (
+            ''.join('%d, %g, %g\n' % (i + 1, *place) for i, place in enumerate(nodes)), type,
+            ', '.join('4 3 5 6 4 3'.split()[:size]))
+    with pytest.warns(UserWarning, match='left out are 1 element of the type %s' % type):
+        mesh = readMesh(written(folder, 'a.inp', text))
+    assert areas(mesh).tolist() == [.5] * 4 and len(mesh.nodes) == 8 and list(mesh.groups) == ['below', 'above']
+    assert mesh.leftOut[0].endswith(type + words) or words and words in mesh.leftOut[0]
+    assert points(mesh, 'joint') == ([(0, 1)] * 2 + [(1, 1)] * 2 if size > 2 else [(0, 1), (1, 1)])
+
+
+def test_elementsOfRevolutionAreTold(folder):
+    with pytest.warns(UserWarning, match='the axis of revolution of 1 element of the type CAX3'):
+        readMesh(written(folder, 'a.inp', kUnitSquare.replace('type=CPS3', 'type=CAX3')))
+
+
+@pytest.mark.parametrize('old, new, sentence', [
+    ('type=CPS3', 'type=C3D8R', "a.inp has elements of the kind 'C3D8R', 1 of them, the first with the number 1"),
+    ('type=CPS3', 'type=U7', "a.inp has elements of the kind 'U7'"),
+    ('1, 1, 2, 3\n', '1, 1, 2, 3, 4\n', 'element 1 of the type CPS3 has 4 nodes instead of 3'),
+    ('2, 1, 3, 4\n', '2, 1, 3\n', 'element 2 of the type CPS3 has 2 nodes instead of 3'),
+    ('2, 1, 3, 4\n', '1, 1, 3, 4\n', 'element 1 is there twice'),
+    ('2, 1, 3, 4\n', '2, 1, 3, 9\n', 'element 2 has the node 9, which does not exist'),
+    ('low, high', 'low, hihg', "a set has the member 'hihg', which is not in the file before it"),
+    ('*Nset', '*Ngen\n1, 4\n*Nset', 'the keyword [*]NGEN, which makes or moves nodes or elements, is not known'),
+    ('*Node\n', '*Node, system=C\n', 'it has nodes in the system C'),
+    ('1., 1.', '1., x', 'not a readable mesh'),
+])
+def test_whatIsNotUnderstoodIsRefused(folder, old, new, sentence):
+    assert old in kUnitSquare
+    with pytest.raises(ValueError, match=sentence) as error:
+        readMesh(written(folder, 'a.inp', kUnitSquare.replace(old, new, 1)))
+    assert str(error.value).endswith('.') and '\n' not in str(error.value)
+
+
+@pytest.mark.parametrize('instances, sentence', [
+    ([('P-1', 'R', '')], "the instance 'P-1' is of the part 'R', which is not in the file"),
+    ([('P-1', 'P', ''), ('P-1', 'P', '')], "there are two instances 'P-1'"),
+    ([('P-1', 'P', '0, 0, 0\n0, 0, 1\n')], "the place of the instance 'P-1' is not understood"),
+    ([('P-1', 'P', '0, 0, 0\n0, 0, 0, 1, 0, 0, 90\n')], 'is no plane mesh: z goes from 0 to 1'),
+])
+def test_wrongInstancesAreRefused(folder, instances, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        readMesh(written(folder, 'a.inp', assembled({'P': kUnitSquare}, instances)))
+
+
+def test_missingIncludedFile(folder):
+    with pytest.raises(ValueError, match='a.inp is not a readable mesh: .*nothing.inp'):
+        readMesh(written(folder, 'a.inp', '*Include, input=nothing.inp\n'))
+    assert os.listdir(folder) == ['a.inp']

@@ -1,4 +1,5 @@
-"""What a viewer shows of a DXF file, a map, a table or a picture is what is read; the rest is told with its number."""
+"""What a viewer shows of a map, a table or a picture is what is read; the rest is told with its number. Silhouettes
+with holes, specks, edges."""
 import json
 import math
 import os
@@ -6,167 +7,8 @@ import os
 import numpy as np
 import pytest
 
-from outline_files import area, corners, kSquare, net, read, written
-from test_outlines_dxf import dxf
+from outline_files import area, corners, kSquare, net, offEllipse, read, written
 from yadefrag import readOutline
-
-kSeen, kOff, kFrozen = 'seen', 'unseen', 'frozen'
-kInvisible = 77  # colour of entities that `hiding` makes invisible: ezdxf 0.18 reads this flag, but does not write it
-
-
-def hiding(file):
-    with open(file) as text:
-        contents = text.read()
-    return written(os.path.dirname(file), 'b.dxf', contents.replace(' 62\n77\n', ' 62\n77\n 60\n1\n'))
-
-
-def square(layout, side, at=(0, 0), **attributes):
-    x, y = at
-    layout.add_lwpolyline([(x, y), (x + side, y), (x + side, y + side), (x, y + side)], close=True,
-                          dxfattribs=attributes)
-
-
-def drawing(draw, seed):
-    """Nested blocks of squares, at random, in rows and columns, on layers that are shown or not; returns the area
-    that is shown and the number of entities that are not."""
-    random = np.random.default_rng(seed)
-    layers = ['0', kSeen, kOff, kFrozen]
-    draw.layers.add(kSeen)
-    draw.layers.add(kOff).off()
-    draw.layers.add(kFrozen).freeze()
-    contents = {}  # block: [(kind, layer, is invisible, value)]
-
-    def filled(layout, below):
-        """Three squares of side 1, and three inserts of the blocks below, each in a place of its own."""
-        found = []
-        for i in range(3):
-            layer, hidden = str(random.choice(layers)), bool(random.random() < .2)
-            square(layout, 1, (2 * i - 300, -300), layer=layer, color=kInvisible if hidden else 7)
-            found.append(('square', layer, hidden, 1))
-        for i in range(3 * bool(below)):
-            block, layer, hidden = str(random.choice(below)), str(random.choice(layers)), bool(random.random() < .2)
-            rows, columns = (int(n) for n in random.integers(1, 4, 2))
-            layout.add_blockref(block, (400. * i, 0), dxfattribs=dict(
-                layer=layer, color=kInvisible if hidden else 7, row_count=rows, column_count=columns, row_spacing=60,
-                column_spacing=60, xscale=.05, yscale=.05, rotation=90 * int(random.integers(4))))
-            found.append(('insert', layer, hidden, (block, rows * columns)))
-        return found
-
-    def shown(those, around):
-        """(area, hidden) of the contents of a block that is inserted on a layer."""
-        total, lost = 0., 0
-        for kind, layer, hidden, value in those:
-            layer = around if layer == '0' else layer
-            if hidden or layer == kFrozen or kind == 'square' and layer == kOff:
-                lost += 1
-            elif kind == 'square':
-                total += 1
-            else:
-                inner, innerLost = shown(contents[value[0]], layer)
-                total, lost = total + value[1] * inner * .05**2, lost + value[1] * innerLost
-        return total, lost
-    for name, below in (('a', []), ('b', ['a']), ('c', ['a', 'b'])):
-        contents[name] = filled(draw.blocks.new(name), below)
-    top = filled(draw.modelspace(), ['a', 'b', 'c'])
-    square(draw.modelspace(), 50, (-900, -900))
-    paper = draw.layout('Layout1')
-    square(paper, 9)
-    square(paper, 9, (20, 0))
-    total, lost = shown(top, '0')
-    return total + 2500, lost
-
-
-@pytest.mark.parametrize('hides', ['invisible', kFrozen, 'nothing'])
-def test_dxfTurnedBlockInABlockThatIsNotToScale(folder, hides):
-    """The square becomes a parallelogram, the circle an ellipse, the half circle a half ellipse."""
-    def draw(document):
-        document.layers.add(kFrozen).freeze()
-        inner, outer = document.blocks.new('inner'), document.blocks.new('outer')
-        square(inner, 2)
-        inner.add_circle((9, 0), 1)
-        inner.add_lwpolyline([(20, 0, 1), (22, 0, 0)], format='xyb', close=True)
-        outer.add_blockref('inner', (0, 0), dxfattribs=dict(
-            rotation=30, color=kInvisible if hides == 'invisible' else 7, layer=kFrozen if hides == kFrozen else '0'))
-        document.modelspace().add_blockref('outer', (0, 0), dxfattribs=dict(xscale=3, yscale=2))
-        square(document.modelspace(), 5, (-50, 0))
-    found, words = read(hiding(dxf(folder, draw)), 1e-4)
-    if hides == 'nothing':
-        assert net(found) == pytest.approx(25 + 6 * (4 + 1.5 * math.pi), rel=1e-4) and not words
-    else:
-        assert net(found) == pytest.approx(25) and words.endswith('(1).')
-
-
-@pytest.mark.parametrize('seed', range(12))
-def test_dxfBlocksRowsAndLayers(folder, seed):
-    wanted = []
-    file = hiding(dxf(folder, lambda document: wanted.extend(drawing(document, seed))))
-    found, words = read(file, gap=1e-9)
-    assert net(found) == pytest.approx(wanted[0], rel=1e-9)
-    told = [int(part.split('(')[1].split(')')[0]) for part in words.split(', ') if '(' in part]
-    assert 'entities in paper space (2)' in words and sum(told) == wanted[1] + 2
-
-
-def withEntities(document):
-    space = document.modelspace()
-    square(space, 10)
-    space.add_text('a')
-    space.add_mtext('b')
-    space.add_point((1, 1))
-    space.add_hatch().paths.add_polyline_path([(0, 0), (1, 0), (1, 1)])
-    space.add_lwpolyline([(20, 0), (30, 0), (30, 9)], close=True, dxfattribs=dict(const_width=.5))
-    space.add_blockref('missing', (0, 0))
-    space.add_3dface([(0, 0), (1, 0), (1, 1), (0, 1)])
-    block = document.blocks.new('named')
-    square(block, 2)
-    block.add_attdef('NAME', (0, 0))
-    space.add_blockref('named', (50, 0)).add_attrib('NAME', 'c', (50, 0))
-
-
-def test_dxfEntitiesThatAreNoOutlines(folder):
-    found, words = read(dxf(folder, withEntities))
-    assert net(found) == pytest.approx(100 + 45 + 4)
-    for what in ('entities of type TEXT', 'entities of type MTEXT', 'entities of type POINT',
-                 'entities of type HATCH', 'entities of type 3DFACE', 'widths of polylines',
-                 'blocks that the file does not contain', 'attributes of blocks'):
-        assert what + ' (1)' in words
-
-
-def test_dxfLayersThatAreOffAreReadByName(folder):
-    def draw(document):
-        document.layers.add('Off').off()
-        square(document.modelspace(), 3, layer='off')
-        square(document.modelspace(), 2, (9, 9))
-    file = dxf(folder, draw)
-    found, words = read(file)
-    assert net(found) == pytest.approx(4) and 'entities on layers that are off (1)' in words
-    assert net(read(file, layers='OFF')[0]) == pytest.approx(9) and not read(file, layers='OFF')[1]
-    assert list(read(file, byLayer=True)[0]) == ['0']
-
-
-def test_dxfNothingIsShown(folder):
-    def draw(document):
-        square(document.layout('Layout1'), 3)
-    with pytest.raises(ValueError, match=r'has no lines that could be an outline; it is read without: entities in '
-                                         r'paper space \(1\)[.]$'):
-        readOutline(dxf(folder, draw))
-
-
-def test_dxfCurveThatIsFittedToAFrame(folder):
-    """A viewer shows the points of the curve (flag 8), not those of its frame (flag 16)."""
-    def draw(document):
-        line = document.modelspace().add_polyline2d([(0, 0), (9, 9)], close=True)
-        line.append_vertices([(0, 0), (4, 0), (4, 4)], dxfattribs=dict(flags=8))
-        for vertex in line.vertices[:2]:
-            vertex.dxf.flags = 16
-    assert net(read(dxf(folder, draw))[0]) == pytest.approx(8)
-
-
-def test_dxfDamagedFile(folder):
-    file = dxf(folder, lambda document: square(document.modelspace(), 3))
-    with open(file) as text:
-        lines = text.read()
-    found, _ = read(written(folder, 'b.dxf', lines[:lines.rindex('ENDSEC')]))
-    assert net(found) == pytest.approx(9)
 
 
 def ring(side, at=(0, 0)):
@@ -277,17 +119,18 @@ kTurns = {1: lambda a: a, 2: np.fliplr, 3: lambda a: np.rot90(a, 2), 4: np.flipu
           6: lambda a: np.rot90(a, 1), 7: lambda a: np.rot90(a, 2).T, 8: lambda a: np.rot90(a, -1)}  # how it is stored
 
 
-@pytest.mark.parametrize('turn', list(kTurns))
-@pytest.mark.parametrize('ending, bits', [('png', 8), ('png', 16), ('tif', 8), ('tif', 16), ('jpg', 8)])
+@pytest.mark.parametrize('turn, ending, bits', [
+    *((turn, *one) for turn in kTurns for one in [('png', 8), ('png', 16), ('tif', 8), ('tif', 16), ('jpg', 8)]),
+    (1, 'bmp', 8), (6, 'jpeg', 8), (6, 'tiff', 16)])
 def test_picturesAreReadUpright(folder, turn, ending, bits):
     from PIL import Image
     y, x = np.mgrid[31.5:-.5:-1, .5:24]
     kind = np.uint8 if bits == 8 else np.uint16
-    upright = np.where(flag(x, y), 0, 2**bits - 1).astype(kind)
+    upright = (np.where(flag(x, y), .1, .9) * (2**bits - 1)).astype(kind)  # no black, no white
     file = os.path.join(folder, 'a.' + ending)
     orientation = Image.Exif()
     orientation[274] = turn
-    more = dict(tiffinfo={274: turn}) if ending == 'tif' else dict(exif=orientation)
+    more = dict(tiffinfo={274: turn}) if 'tif' in ending else dict(exif=orientation)
     Image.fromarray(np.ascontiguousarray(kTurns[turn](upright))).save(file, **more)
     (outline, _), = readOutline(file, .1)
     points = np.array(outline)
@@ -351,11 +194,12 @@ def test_furtherPicturesOfAFile(folder):
     assert net(found) == pytest.approx(400, rel=.01) and 'further pictures of the file (2)' in words
 
 
-def test_greysOf32BitsAreRefused(folder):
+@pytest.mark.parametrize('kind', [np.int32, np.float32])
+def test_greysOf32BitsAreRefused(folder, kind):
     from PIL import Image
     file = os.path.join(folder, 'a.tif')
-    Image.fromarray(np.eye(9, dtype=np.int32)).save(file)
-    with pytest.raises(ValueError, match='its grey values do not have 8 or 16 bits'):
+    Image.fromarray(np.eye(9, dtype=kind)).save(file)
+    with pytest.raises(ValueError, match='a.tif is not a readable picture: its grey values do not have 8 or 16 bits'):
         readOutline(file, 1)
 
 
@@ -378,3 +222,48 @@ def test_regionsWithinRegions(folder, seed):
     random.shuffle(parts)
     found, words = read(written(folder, 'a.json', json.dumps(dict(type='GeometryCollection', geometries=parts))))
     assert net(found) == pytest.approx(wanted, rel=1e-9) and not words
+
+
+def silhouette(folder, inside, size=(120, 100), mode='L'):
+    from PIL import Image
+    y, x = np.mgrid[size[1] - .5:-.5:-1, .5:size[0]]
+    isDark = inside(x, y)
+    if mode == 'L':
+        picture = Image.fromarray(np.where(isDark, 0, 255).astype(np.uint8))
+    else:  # black everywhere, and transparent outside
+        pixels = np.zeros(isDark.shape + (4,), dtype=np.uint8)
+        pixels[isDark, 3] = 255
+        picture = Image.fromarray(pixels, 'RGBA')
+    file = os.path.join(folder, mode + '.png')
+    picture.save(file)
+    return file
+
+
+@pytest.mark.parametrize('mode', ['L', 'RGBA'])
+def test_silhouetteWithAHole(folder, mode):
+    def inside(x, y):
+        return (np.hypot(x - 60, y - 40) < 35) & (np.hypot(x - 70, y - 45) > 10)
+    (outline, (hole,)), = readOutline(silhouette(folder, inside, mode=mode), 1e-3, scale=1e-3)
+    # A pixel's half from the grid, and the tolerance of one pixel.
+    for loop, centre, radius in ((outline, (.06, .04), .035), (hole, (.07, .045), .01)):
+        radii = np.hypot(*(np.array(loop) - centre).T)
+        assert abs(radii - radius).max() < 1e-3
+        assert max(offEllipse(loop, centre, radius, radius)) < 1.75e-3
+        assert area(loop) == pytest.approx(math.pi * radius**2, rel=.03 if radius > .02 else .1)
+    assert len(outline) < 40 < len(readOutline(silhouette(folder, inside), 1e-4, scale=1e-3)[0][0])
+
+
+def test_specksAreOmittedIfRequested(folder):
+    def inside(x, y):
+        return (abs(x - 60) < 30) & (abs(y - 50) < 20) | (np.hypot(x - 10, y - 10) < 2)
+    file = silhouette(folder, inside)
+    (outline, _), = readOutline(file, .1, leastArea=50)
+    # The contour cuts a corner at half a pixel.
+    assert area(outline) == pytest.approx(60 * 40, rel=1e-3)
+    with pytest.raises(ValueError, match='L.png, tolerance: simplify is 1 m, .*could vanish'):
+        readOutline(file, 1)
+
+
+def test_silhouetteAtTheEdgeOfThePicture(folder):
+    (outline, _), = readOutline(silhouette(folder, lambda x, y: x < 60), .1)
+    assert area(outline) == pytest.approx(60 * 100, rel=1e-3)

@@ -1,38 +1,33 @@
-"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has."""
-import json
+"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has.
+Threads: test_threads.py."""
 import os
-import subprocess
 
 import numpy as np
 import pytest
 import yade.wrapper as w
 import yadefrag
 from yade import utils
-from yade.minieigenHP import Matrix3, Vector3
+from yade.minieigenHP import Matrix3
 
 import scenes
-from heaps import heap, state
-from project import yadeCommand
+from heaps import heap, packing, state
 from scenes import O
 
-kHere = os.path.dirname(os.path.abspath(__file__))
+NAMES = 'InteractionLoop', 'CurveLoop'
+
+
+def frictional(law=None, **sphere):
+    """Functors with attributes of the law and of the geometry of two spheres."""
+    return ([w.Ig2_Sphere_Sphere_ScGeom(**sphere), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
+             w.Ig2_Wall_Sphere_ScGeom()],
+            [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack(**(law or {}))])
+
 
 kFunctors = dict(
-    friction=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-                       w.Ig2_Wall_Sphere_ScGeom()],
-                      [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-    arms=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), w.Ig2_Facet_Sphere_ScGeom(),
-                   w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Wall_Sphere_ScGeom()],
-                  [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                  [w.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
-    distant=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.2), w.Ig2_Facet_Sphere_ScGeom(),
-                      w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Wall_Sphere_ScGeom()],
-                     [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                     [w.Law2_ScGeom_FrictPhys_CundallStrack(neverErase=True)]),
-    traced=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-                     w.Ig2_Wall_Sphere_ScGeom()],
-                    [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                    [w.Law2_ScGeom_FrictPhys_CundallStrack(traceEnergy=True)]),
+    friction=frictional,
+    arms=lambda: frictional(dict(sphericalBodies=False), avoidGranularRatcheting=False),
+    distant=lambda: frictional(dict(neverErase=True), interactionDetectionFactor=1.2),
+    traced=lambda: frictional(dict(traceEnergy=True)),
     rotations=lambda: ([w.Ig2_Sphere_Sphere_ScGeom6D(), w.Ig2_Facet_Sphere_ScGeom6D(), w.Ig2_Box_Sphere_ScGeom6D()],
                        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
 kCohesive = ([w.Ig2_Sphere_Sphere_ScGeom6D, w.Ig2_Facet_Sphere_ScGeom6D, w.Ig2_Box_Sphere_ScGeom6D],
@@ -127,7 +122,7 @@ def test_forcesOfOthers(laws, build):
     """Forces that engines have added before the loop, those of a script, and those of YADE's laws: for all contacts, or
     for some of a body's contacts."""
     found = []
-    for name in 'InteractionLoop', 'CurveLoop':
+    for name in NAMES:
         build()
         viscous = w.ViscElMat(kn=1e6, ks=5e5, cn=100, cs=50, density=2000, frictionAngle=.4)
         for body in list(O.bodies)[:144 if laws == 'viscous' else 50 if laws == 'mixed' else 0]:
@@ -156,31 +151,16 @@ def test_energies():
         heap()
         O.trackEnergy = True
     found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
+    for name in NAMES:
         run(name, kFunctors['friction'](), 300, build=tracked)
         found.append(dict(O.energy.items()))
         O.trackEnergy = False
     assert found[0] == found[1] and found[0]['plastDissip'] > 0 and found[0]['elastPotential'] > 0
     losses = []
-    for name in ('InteractionLoop', 'CurveLoop'):
+    for name in NAMES:
         loop, _ = run(name, kFunctors['traced'](), 300)
         losses.append(loop.lawDispatcher.functors[0].plasticDissipation())
     assert losses[0] == losses[1] > 0
-
-
-def test_threads():
-    """yade -j1, -j2, -j3: the same bits, where YADE's loop depends on the number."""
-    found = []
-    for number in (1, 2, 3):
-        done = subprocess.run([*yadeCommand(), f'-j{number}', os.path.join(kHere, 'loop_threads.py')],
-                              capture_output=True, text=True, timeout=300)
-        lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ ')]
-        assert done.returncode == 0 and len(lines) == 1, done.stdout[-1500:] + done.stderr[-1500:]
-        found.append(json.loads(lines[0]))
-    assert [f['threads'] for f in found] == [1, 2, 3]
-    assert min(found[0]['contacts']) > 1600
-    for one in found[1:]:
-        assert one['states'] == found[0]['states']
 
 
 def fresh(former):
@@ -217,7 +197,7 @@ def test_changesFromPython():
             O.bodies[41].state = fresh(O.bodies[41].state)
 
     found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
+    for name in NAMES:
         run(name, kFunctors['friction'](), 50)
         states = []
         for step in range(50, 450, 10):
@@ -246,30 +226,20 @@ def test_savedAndLoaded(folder):
         assert np.abs(numbers - reference).max() < 1e-6
 
 
-def test_callbacks():
-    """Each real contact, once in each step: YADE's sum of forces on contacts."""
-    sums = []
-    for name in ('InteractionLoop', 'CurveLoop'):
-        heap()
-        loop = loopOf(name, kFunctors['friction']())
-        counter = w.SumIntrForcesCb()
-        loop.callbacks = [counter]
-        O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop, w.NewtonIntegrator(damping=.1)]
-        O.run(200, True)
-        sums.append(state())
-    assert sums[0] == sums[1]
-
-
-def test_sortedList():
-    """YADE's own loop: the same bits, none of them by CurveLoop."""
+@pytest.mark.parametrize('isSorted', [False, True])
+def test_callbacksAndSortedLists(isSorted):
+    """Each real contact, once in each step: YADE's sum of forces on contacts. A sorted list is left to YADE's own loop."""
     found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
+    for name in NAMES:
         loop, _ = run(name, kFunctors['friction'](), 10)
-        loop.loopOnSortedInteractions = True
+        if isSorted:
+            loop.loopOnSortedInteractions = True
+        else:
+            loop.callbacks = [w.SumIntrForcesCb()]
         O.run(200, True)
         found.append(state())
     assert found[0] == found[1] and O.interactions.countReal() > 10
-    assert loop.fastForces == 0
+    assert not isSorted or loop.fastForces == 0
 
 
 def test_isALoop():
@@ -311,7 +281,7 @@ def test_missingFunctorsAreReported():
 def test_spheresOnABeam():
     """Contacts with the boundary of a finite-element body, whose shapes the step before has changed."""
     found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
+    for name in NAMES:
         scenes.clear()
         O.materials.append(w.FEMat(young=1e8, poisson=.3, density=2000, frictionAngle=.4, label='beam'))
         solver = w.FESolver()
@@ -337,23 +307,12 @@ def test_spheresOnABeam():
     assert found[0][0] > 5
 
 
-def dense():
-    """Some 5,000 contacts of spheres in random order, that are stirred."""
-    scenes.clear()
-    chance = np.random.default_rng(5)
-    places = np.array(list(np.ndindex(12, 12, 12))) * .97
-    chance.shuffle(places)
-    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
-    scenes.addSpheres(places, [.5] * len(places), chance.normal(0, 2, (len(places), 3)), dynamic=True)
-    O.dt = 1e-4
-
-
 def test_movedTogether(folder):
     """From 2,048 contacts on, geometries and physics are moved together: the same bits, with objects that Python
     holds, contacts and bodies that end, a reset and a saved scene in between."""
     found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
-        run(name, kFunctors['friction'](), 20, build=dense)
+    for name in NAMES:
+        run(name, kFunctors['friction'](), 20, build=lambda: packing((12, 12, 12), .97, 1e-4, seed=5))
         held = [(i.geom, i.phys) for i in list(O.interactions)[:50]]
         assert O.interactions.countReal() > 2048
         states = []

@@ -1,7 +1,11 @@
-"""What YADE's Python, class lists and archives know of a class that this project adds."""
+"""What YADE's Python, class lists and archives know of a class that this project adds. Public functions and methods have
+type hints, which mypy checks (scripts/check types), and which a user sees."""
 
+import ast
 import builtins
+import inspect
 import os
+import pathlib
 
 import pytest
 
@@ -19,12 +23,13 @@ def made(request):
     return getattr(wrapper, request.param)
 
 
-def isCollider(made):
-    return made.__name__.endswith('Collider')
+@pytest.fixture(params=[name for name in NAMES if name.endswith('Collider')])
+def collider(request):
+    return getattr(wrapper, request.param)
 
 
 def test_somethingIsPublished():
-    assert NAMES
+    assert len(NAMES) > 10 and sum(name.endswith('Collider') for name in NAMES) == 3
 
 
 def test_classIsWhereScriptsLookForIt(made):
@@ -34,18 +39,14 @@ def test_classIsWhereScriptsLookForIt(made):
     assert name in system.childClasses('Serializable')
 
 
-def test_colliderIsAChildOfCollider(made):
-    if not isCollider(made):
-        pytest.skip('not a collider')
-    assert issubclass(made, wrapper.Collider)
-    assert O.isChildClassOf(made.__name__, 'Collider')
-    assert made.__name__ in system.childClasses('Collider')
+def test_colliderIsAChildOfCollider(collider):
+    assert issubclass(collider, wrapper.Collider)
+    assert O.isChildClassOf(collider.__name__, 'Collider')
+    assert collider.__name__ in system.childClasses('Collider')
 
 
-def test_keywordsAreAttributes(made):
-    if not isCollider(made):
-        pytest.skip('not a collider')
-    one = made([wrapper.Bo1_Sphere_Aabb()], verletDist=.25, label='scratch', avoidSelfInteractionMask=2)
+def test_keywordsAreAttributes(collider):
+    one = collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.25, label='scratch', avoidSelfInteractionMask=2)
     assert (one.verletDist, one.label, one.avoidSelfInteractionMask) == (.25, 'scratch', 2)
     assert [type(f) for f in one.boundDispatcher.functors] == [wrapper.Bo1_Sphere_Aabb]
     one.updateAttrs({'verletDist': .5})
@@ -61,6 +62,8 @@ def test_errorsAreYades(made):
     settable = next(name for name in made().dict() if getattr(type(made()), name).fset)
     with pytest.raises(TypeError):
         made(**{settable: object()})
+    with pytest.raises(AttributeError):
+        made().updateAttrs({'noSuchAttribute': 1})
     with pytest.raises((TypeError, ValueError, RuntimeError)):
         made(1, 2)
 
@@ -75,18 +78,62 @@ def test_dictRebuildsTheObject(made):
 
 
 @pytest.mark.parametrize('ending', ['.xml', '.xml.bz2', '.yade', '.yade.gz'])
-def test_savedAndLoaded(made, ending, folder):
-    if not isCollider(made):
-        pytest.skip('not an engine')
+def test_savedAndLoaded(collider, ending, folder):
     path = os.path.join(folder, 'scene' + ending)
-    O.engines = [wrapper.ForceResetter(), made([wrapper.Bo1_Sphere_Aabb()], verletDist=.125, label='finder')]
+    O.engines = [wrapper.ForceResetter(), collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.125, label='finder')]
     wanted = O.engines[1].dict()
     O.save(path)
     O.reset()
     O.load(path)
     loaded = O.engines[1]
-    assert type(loaded) is made and len(loaded.boundDispatcher.functors) == 1
+    assert type(loaded) is collider and len(loaded.boundDispatcher.functors) == 1
     values = loaded.dict()
     for name, value in wanted.items():
         if isinstance(value, (bool, int, float, str)):
             assert values[name] == value, name
+
+
+# --- type hints
+
+SOURCES = sorted(pathlib.Path(yadefrag.__file__).parent.rglob('*.py'))
+
+
+def functions(body, isPublic=True, isMethod=False):
+    """(function, True if its first argument is the object) of all public ones, also of public classes."""
+    for one in body:
+        isShown = isPublic and (not one.name.startswith('_') or one.name.startswith('__')) \
+            if isinstance(one, (ast.ClassDef, ast.FunctionDef)) else False
+        if isShown and isinstance(one, ast.ClassDef):
+            yield from functions(one.body, isMethod=True)
+        elif isShown:
+            isStatic = any(ast.unparse(d) == 'staticmethod' for d in one.decorator_list)
+            yield one, isMethod and not isStatic
+
+
+def lacking(function, isMethod):
+    """Names of the arguments without a type, and 'return'."""
+    of = function.args
+    arguments = [*of.posonlyargs, *of.args, *of.kwonlyargs, *filter(None, [of.vararg, of.kwarg])][isMethod:]
+    return [one.arg for one in arguments if one.annotation is None] + ['return'] * (function.returns is None)
+
+
+@pytest.mark.parametrize('file', SOURCES, ids=lambda file: file.stem)
+def test_publicFunctionsHaveHints(file):
+    found = {one.name: lacking(one, isMethod) for one, isMethod in functions(ast.parse(file.read_text()).body)}
+    assert {name: those for name, those in found.items() if those} == {}
+
+
+def test_hintsAreShown():
+    """Also of functions that are called through another one, and of FESolver's methods."""
+    assert len(SOURCES) > 50
+    for function in (yadefrag.plotMesh, yadefrag.tradeoff, yadefrag.FESolver.addPolygon):
+        found = inspect.signature(function)
+        assert found.return_annotation is not found.empty
+        assert all(one.annotation is not one.empty for one in found.parameters.values())
+
+
+def test_classesForCheckersAreThoseThatArePublished():
+    tree = ast.parse(pathlib.Path(yadefrag.__file__).read_text())
+    named = [one.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == 'yade.wrapper'
+             for one in node.names]
+    assert named == sorted(name for name in yadefrag.__all__ if hasattr(wrapper, name))

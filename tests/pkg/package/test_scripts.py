@@ -1,7 +1,6 @@
 """The scripts of scripts/: which systems and arguments they refuse, each in one sentence."""
 
 import os
-import pathlib
 import subprocess
 
 import pytest

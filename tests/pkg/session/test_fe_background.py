@@ -13,7 +13,7 @@ from fe_scene import solverOfScene
 from project import yadeCommand
 from yade import wrapper as w
 from yadefrag import _yadefrag
-from yadefrag.fe.between_steps import betweenSteps
+from yadefrag.fe.contents import betweenSteps
 
 kHere = os.path.dirname(os.path.abspath(__file__))
 O = builtins.O

@@ -1,6 +1,9 @@
-"""What a script does to the bodies of an FESolver behind its back: refused, or without harm."""
+"""What a script does to the bodies of an FESolver behind its back: refused, or without harm. What cannot be copied whole
+is not copied at all."""
 import builtins
+import copy
 import gc
+import pickle
 import weakref
 
 import numpy as np
@@ -106,6 +109,34 @@ def test_partsAreTakenAway(name, value, finder):
                 steps(3)
             except (RuntimeError, ValueError) as error:
                 assert 'must not replace it' in str(error)
+
+
+# --- copies
+
+COPIES = [copy.copy, copy.deepcopy, lambda thing: pickle.loads(pickle.dumps(thing))]
+
+
+@pytest.mark.parametrize('make', COPIES)
+def test_aSolverWithBodiesIsNotCopied(make):
+    solver = elasticImpact()
+    with pytest.raises(TypeError, match='cannot be copied or pickled.*O.save keeps them'):
+        make(solver)
+    steps(3)
+
+
+@pytest.mark.parametrize('make', COPIES)
+@pytest.mark.parametrize('thing', [
+    lambda: w.FESolver(damping=3, passes=2), lambda: w.FEMat(young=3e7, poisson=.1),
+    lambda: w.BrittleFEMat(young=3e7, tensileStrength=5, seed=7), lambda: w.SurfaceSegment(halo=.2),
+    lambda: w.LebesgueCollider([w.Bo1_Sphere_Aabb()], verletDist=.3),
+    lambda: w.Ig2_Sphere_SurfaceSegment_ScGeom(label='a'), lambda: w.Bo1_SurfaceSegment_Aabb()])
+def test_allElseIsCopiedWhole(make, thing):
+    one = thing()
+    other = make(one)
+    assert type(other) is type(one) and other is not one
+    values, copied = one.dict(), other.dict()
+    values.pop('boundDispatcher', None), copied.pop('boundDispatcher', None)
+    assert values == copied
 
 
 # --- memory

@@ -1,4 +1,6 @@
-"""Each argument accepts every form that its docstring states, with the same result, and refuses what is none.
+"""Each argument accepts every form that its docstring states, with the same result, and refuses what is none. Thousands of
+calls of all that is public with wrong values, seeded, each batch in a yade of its own (YADEFRAG_API_SECONDS: for how long,
+30).
 
 forms.py has the forms; a call of api_calls.py that succeeds has the other arguments.
 """
@@ -7,6 +9,8 @@ import inspect
 import os
 import re
 import shutil
+import subprocess
+import time
 import warnings
 
 import numpy as np
@@ -15,6 +19,7 @@ import pytest
 import api_calls
 import forms
 import yadefrag
+from project import yadeCommand
 from yade import wrapper as w
 from yadefrag.arguments import shown
 from yadefrag.studies import ensemble_runs, tradeoff_grid
@@ -135,7 +140,7 @@ def test_everyArgumentHasForms():
     for variant, (function, *_) in kVariants.items():
         table.setdefault(function, {}).update(table[variant])
     bodies = {argument for name in table if name.startswith('add') for argument in table[name]}
-    # Of attributes, updateAttrs among them, see test_values.py.
+    # Of attributes, updateAttrs among them, see test_calls.py.
     methods = [name for name in vars(w.FESolver) if name[0] != '_' and name != 'updateAttrs' and callable(getattr(w.FESolver, name))]
     missing = []
     for name in api_calls.ownFunctions() + methods:
@@ -160,3 +165,43 @@ def test_everyAttributeAcceptsItsForms(cls):
             for wrong in [object()] + [(1, 2)] * (name == 'gravity' and cls is not w.FESolver):
                 with pytest.raises(TypeError, match='it must be (?!two)' if wrong == (1, 2) else 'it must be'):
                     setattr(other, name, wrong)
+
+
+# --- random calls
+
+kSeconds = float(os.environ.get('YADEFRAG_API_SECONDS', '30'))
+kCalls = 200  # of a batch
+kLimit = 300  # s for a batch
+
+
+def batch(seed, log):
+    """(numbers of calls that succeeded and were refused, list of what was found)."""
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'api_calls.py')
+    ended = 'it hung'
+    try:
+        run = subprocess.run([*yadeCommand(), script, str(seed), str(kCalls), log], capture_output=True,
+                             timeout=kLimit, text=True, errors='replace')
+        ended = 'the process ended with %d: %s' % (run.returncode, run.stderr[-500:])
+    except subprocess.TimeoutExpired:
+        pass
+    with open(log, errors='replace') as file:
+        lines = file.read().splitlines()
+    found = ['%s -> %s' % (call, line) for call, line in zip(lines, lines[2:])
+             if line.startswith('FOUND')]
+    end = re.fullmatch(r'END (\d+) succeeded, (\d+) refused', lines[-1] if lines else '')
+    if not end:
+        found.append('%s -> %s' % (lines[-1] if lines else 'no call', ended))
+    return ([int(n) for n in end.groups()] if end else [0, 0]), ['seed %d: %s' % (seed, f) for f in found]
+
+
+@pytest.mark.long
+def test_everyCallIsAnsweredBySuccessOrASentence(folder):
+    end, seed, found, counts = time.monotonic() + kSeconds, 1, [], [0, 0]
+    while time.monotonic() < end:
+        done, wrong = batch(seed, folder + '/log')
+        counts = [a + b for a, b in zip(counts, done)]
+        found += wrong
+        seed += 1
+    print('%d calls succeeded, %d were refused, in %d batches' % (*counts, seed - 1))
+    assert not found, '\n'.join(found)
+    assert counts[1] > counts[0] / 4 > 0

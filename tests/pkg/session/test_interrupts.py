@@ -101,6 +101,7 @@ def test_messageCountsSteps(fe, capsys):
         runSteps(10**9)
     assert 'Stopped after %d of 1000000000 steps' % O.iter in capsys.readouterr().err
     assert O.stopAtIter == -1  # no later run ends at a part of this one
+    checkAtRest()
 
 
 def test_anotherHandlerIsKept(fe):

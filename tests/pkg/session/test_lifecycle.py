@@ -10,74 +10,46 @@ import yade.wrapper as w
 
 
 def runOn(steps=15):
-    history = []
+    history, contacts = [], 0
     for _ in range(steps):
-        O.step()
+        contacts += stepAndCheck()
         history.append(set(scenes.realPairs()))
+    assert contacts > 20
     return history, scenes.positions().tolist()
 
 
-kFiles = ['scene.xml', 'scene.xml.gz', 'scene.xml.bz2', 'scene.yade', 'scene.yade.gz']
-
-
-@pytest.mark.parametrize('name', kFiles)
-def testSaveAndLoad(collider, folder, name):
-    """The loaded scene has the same collider with the same attributes, and runs on alike."""
+@pytest.mark.parametrize('name', [
+    'scene.xml', 'scene.xml.gz', 'scene.xml.bz2', 'scene.yade', 'scene.yade.gz', 'memory', 'text'])
+@pytest.mark.parametrize('steps', [0, 7])
+def testSaveAndLoad(collider, folder, name, steps):
+    """The loaded scene has the same collider with the same attributes, misses no contact, and runs on alike."""
     path = os.path.join(folder, name)
     gas(collider, verletDist=.01, minSweepDistFactor=.2, avoidSelfInteractionMask=4, label='mine')
-    stepAndCheck(steps=7)
+    stepAndCheck(steps=steps)
     before = [i for i in listed() if i[2]]      # YADE saves the real ones
-    O.save(path)
+    if name == 'memory':
+        O.saveTmp('here')
+    elif name == 'text':
+        text = O.sceneToString()
+    else:
+        O.save(path)
     expected = runOn()
     scenes.clear()
-    O.load(path)
-    engine = theCollider(collider)
-    assert (engine.verletDist, engine.minSweepDistFactor) == (.01, .2)
-    assert (engine.avoidSelfInteractionMask, engine.label) == (4, 'mine')
-    assert len(engine.boundDispatcher.functors) == 4
-    assert listed() == before
-    assert runOn() == expected
-
-
-def testLoadedSceneMissesNothing(collider, folder):
-    path = os.path.join(folder, 'a.yade.gz')
-    gas(collider)
-    stepAndCheck(steps=5)
-    O.save(path)
-    O.load(path)
-    assert stepAndCheck(steps=20) > 20
-    O.reload()
-    assert stepAndCheck(steps=20) > 20
-
-
-def testSaveTmp(collider):
-    gas(collider)
-    stepAndCheck(steps=3)
-    O.saveTmp('here')
-    expected = runOn()
-    for _ in range(2):
-        O.loadTmp('here')
-        theCollider(collider)
+    for k in range(2):
+        if name == 'memory':
+            O.loadTmp('here')
+        elif name == 'text':
+            O.stringToScene(text)
+        elif k == 0:
+            O.load(path)
+        else:
+            O.reload()
+        engine = theCollider(collider)
+        assert (engine.verletDist, engine.minSweepDistFactor) == (.01, .2)
+        assert (engine.avoidSelfInteractionMask, engine.label) == (4, 'mine')
+        assert len(engine.boundDispatcher.functors) == 4
+        assert listed() == before
         assert runOn() == expected
-    O.loadTmp('here')
-    assert stepAndCheck(steps=10)
-
-
-def testSaveBeforeTheFirstStep(collider):
-    gas(collider)
-    O.saveTmp()
-    O.reload()
-    assert stepAndCheck(steps=3)
-
-
-def testPickledString(collider):
-    gas(collider)
-    stepAndCheck(steps=3)
-    text = O.sceneToString()
-    expected = runOn()
-    scenes.clear()
-    O.stringToScene(text)
-    assert runOn() == expected
 
 
 @pytest.mark.rivalFails('with fewer bodies than before it finds nothing in the first step')

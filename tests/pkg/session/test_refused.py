@@ -1,5 +1,5 @@
 """What a script gives wrongly is refused with one sentence that names the argument, and nothing has changed: tables by
-argument. Files have theirs in test_file_errors.py, steps in test_messages.py."""
+argument; more of them in test_refused_values.py. Files have theirs in test_file_errors.py, steps in test_messages.py."""
 import builtins
 import math
 import warnings
@@ -227,6 +227,10 @@ WRONG = [
     (lambda s: yadefrag.plotMesh(), 'plotMesh needs fe: plotMesh(fe).'),
     (lambda s: yadefrag.plotMesh(s, feild='speed'), "plotMesh has no argument 'feild', but field."),
     (lambda s: w.FEMat(1e9), 'FEMat takes no arguments by position'),
+    (lambda s: yadefrag.Mesh(SQUARE), 'Mesh needs triangles: Mesh(nodes, triangles).'),
+    (lambda s: s.addMesh(SQUARE), 'addMesh needs material: addMesh(mesh, material).'),
+    (lambda s: s.addMesh(SQUARE, 'm', spinn=1), "addMesh has no argument 'spinn', but spin."),
+    (lambda s: s.addTriangles(SQUARE, [(0, 1, 2)], 'b', jointStrength=0), "addTriangles has no argument 'jointStrength'"),
     (lambda s: w.FESolver(2), 'FESolver takes no arguments by position'),
     *[(lambda s, functors=functors: w.LebesgueCollider(functors), 'it must be a list of bound functors')
       for functors in ([None], [3], 3, [w.FEMat()], None)],  # YADE itself would end the process for None in the list
@@ -271,8 +275,13 @@ def test_withoutBodies(folder):
 ATTRIBUTES = {
     'passes': [(3, ''), (2.5, 'FESolver.passes is 2.5, it must be a whole number.'),
                (10**30, 'FESolver.passes is 1000000000...00000000000, it must be closer to 0.')],
-    'contactTolerance': [('rough', ''), (0, ''), (
-        (1,), "FESolver.contactTolerance is (1,), it must be 'fine', 'default', 'coarse' or a number.")],
+    'contactTolerance': [
+        *[(wrong, 'FESolver.contactTolerance is %s, it must be ' % text) for wrong, text in (
+            ('rough', "'rough'"), (0, '0'), (-1e-3, '-0.001'), (.2, '0.2'), (math.nan, 'nan'),
+            ('x' * 99, 'a text of 99 bytes'))],
+        *[(wrong, "%s, it must be 'fine', 'default', 'coarse' or a number." % (wrong,)) for wrong in ((1,), None)]],
+    'minFragmentArea': [(wrong, 'it must be positive') for wrong in (-1, math.nan, math.inf)],
+    'maxCracks': [(-2, 'FESolver.maxCracks is -2')],
     'halo': [(-.1, ''), (.6, ''), (math.nan, ''), ('wide', "FESolver.halo is 'wide', it must be a number."),
              (HUGE, 'FESolver.halo is 1000000000...00000000000, it must be a number.')],
     'view': [('stress', "FESolver.view is 'stress', it must be 'component', 'fragment' or 'mises'.")],

@@ -1,32 +1,36 @@
-"""What must not change a run, in every scene that something happens in: saving and loading, the number of threads, the
-collider. All that moves, and all that FESolver keeps, has the same bits."""
+"""What must not change a run, in every scene that something happens in: saving and loading, the number of threads, steps
+that are refused, the collider. All that moves, and all that FESolver keeps, has the same bits."""
 import builtins
 import math
 
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import fe_impact
 import yadefrag
-from fe_scene import fe, finder, run, solverOfScene
+from fe_scene import blow, fe, finder, impact, run, solverOfScene, throwBall
 from yade import utils
 from yade import wrapper as w
 
 O = builtins.O
 kArrays = ('nodes', 'velocities', 'masses', 'triangles', 'fragmentOf', 'stress', 'plasticStrain', 'temperature',
            'damage')
-kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'dropped', 'warnings', 'time')
+kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'numActives', 'maxPenetration', 'dropped', 'warnings', 'time',
+            'criticalTimeStep')
 
 
 def state():
     """{what: bytes or text} of all that the next steps depend on; YADE does not save the geometry of contacts."""
     solver = solverOfScene()
     found = {name: np.asarray(getattr(solver, name)).tobytes() for name in kArrays}
-    found.update({name: repr(getattr(solver, name)) for name in kFigures}, cracks=yadefrag.crackTable(solver).tobytes(),
-                 surfaces=np.concatenate(solver.surfaces).tobytes())
+    figures = {name: getattr(solver, name) for name in kFigures}
+    found.update({name: repr(one() if callable(one) else one) for name, one in figures.items()},
+                 cracks=yadefrag.crackTable(solver).tobytes(), surfaces=np.concatenate(solver.surfaces).tobytes())
     found['bodies'] = repr([(b.id, tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel))
                             for b in O.bodies if b and not isinstance(b.shape, w.SurfaceSegment)])
+    found['pieces'] = repr([(b.id, tuple(b.state.pos), b.shape.halo) for b in O.bodies
+                            if b and isinstance(b.shape, w.SurfaceSegment)])
+    found['attributes'] = repr({**solver.dict(), 'ompThreads': None})
     found['contacts'] = repr(sorted((i.id1, i.id2, tuple(i.phys.normalForce), tuple(i.phys.shearForce))
                                     for i in O.interactions if i.isReal))
     return found
@@ -40,6 +44,16 @@ def brittle(**values):
     return lambda: fe_impact.impact(**dict(dict(strengthScatter=.1, seed=3), **values))
 
 
+def elastic(smooth, **settings):
+    return lambda: impact('LebesgueCollider', smooth, **settings)
+
+
+def varying():
+    """Steps that change create energy, of which a message tells each doubling."""
+    command = 'O.dt = %r * (.27 + .63 * (O.iter * 7919 %% 97) / 97)' % blow().criticalTimeStep()
+    O.engines = [w.PyRunner(command=command, iterPeriod=1, initRun=True), *O.engines]
+
+
 def dropped():
     fe_impact.impact(weibullModulus=10, seed=3).minFragmentArea = 3e-6
 
@@ -48,9 +62,7 @@ def discAndBall():
     solver = fe()
     solver.addPolygon(yadefrag.circle((0, 0), .1, 24), size=.02, material='m', velocity=(2, .3), smooth=True, spin=3)
     solver.addPolygon(yadefrag.rectangle((.105, -.1), (.2, .1)), size=.02, material='m')
-    ball = chain.ball((.15, .151), .05, O.materials['m'])
-    ball.state.vel, ball.state.blockedDOFs = (0, -1, 0), 'zXY'
-    O.bodies.append(ball)
+    throwBall((.15, .151), .05, (0, -1))
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.5)
 
 
@@ -67,7 +79,8 @@ def bonded():
 
 def stressed():
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4),
+                      element='smoothed')
     run(solver)
 
 
@@ -89,22 +102,6 @@ def driven():
     run(solver)
 
 
-def plastic(**failure):
-    """A harder bar plugs a plate of steel, which yields, or fails."""
-    def make():
-        O.materials.append(w.PlasticFEMat(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6,
-                                          hardeningExponent=.26, rateFactor=.014, thermalExponent=1.03,
-                                          meltTemperature=1793, heatCapacity=477, **failure))
-        O.materials.append(w.FEMat(young=600e9, poisson=.22, density=15000))
-        solver = w.FESolver(passes=2)
-        solver.addPolygon(yadefrag.rectangle((-.012, 0), (.012, .002)), size=5e-4, material=0,
-                          fixed=lambda x, y: abs(x) > .0119)
-        solver.addPolygon(yadefrag.rectangle((-.003, .002), (.003, .006)), size=1e-3, material=1, velocity=(0, -500))
-        O.engines = yadefrag.engines(solver)
-        O.dt = .7 * solver.criticalTimeStep()
-    return make
-
-
 def rigid():
     """A block falls on facets, a wall and a box that moves; another box obeys forces."""
     solver = fe(gravity=(0, -10))
@@ -119,25 +116,12 @@ def rigid():
     run(solver)
 
 
-def wallAndClump():
-    """Spheres in contact with a wall that cracks."""
-    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2400, frictionAngle=.3, tensileStrength=3e6,
-                                      strengthScatter=.1, label='wall'))
-    O.materials.append(w.FrictMat(young=2e9, poisson=.3, density=2400, frictionAngle=.3, label='s'))
-    solver = w.FESolver()
-    solver.addPolygon(yadefrag.rectangle((0, -.5), (.1, .5)), size=.02, material='wall',
-                      fixed=lambda x, y: abs(y) > .5 - 1e-9)
-    number, _ = O.bodies.appendClumped([chain.ball(at, .05, O.materials['s'])
-                                        for at in ((-.051, .01), (-.09, .07), (-.09, -.05))])
-    clump = O.bodies[number]
-    clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
-    run(solver, finder('LebesgueCollider'), spheres=True, factor=.2)
-
-
-kFails = dict(failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, failureD5=.61, fractureEnergy=2e4)
 kTable = [(0, 1), (.1, .4), (.5, .3), (1, 0)]
 # Scene: (makes it, steps before it is saved, what has happened by the end).
 kScenes = {
+    'elastic': (elastic(False, contactTolerance=1e-5), 150, lambda fe: fe.energy['contact'] != 0),
+    'smooth': (elastic(True, passes=2), 150, lambda fe: fe.energy['contact'] != 0),
+    'steps that vary': (varying, 200, lambda fe: len(fe.warnings) > 1),
     'elastic disc and sphere': (discAndBall, 250, lambda fe: fe.energy['contact'] != 0),
     'cracks': (brittle(weibullModulus=10, referenceVolume=1e-7), 120, lambda fe: fe.numCracks > 5),
     'cohesion': (brittle(fractureEnergy=500), 250, lambda fe: fe.numCracks > 5),
@@ -149,14 +133,35 @@ kScenes = {
     'bonded': (bonded, 40, lambda fe: fe.energy['fracture'] > 0),
     'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
     'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
-    'plastic': (plastic(), 100, lambda fe: fe.plasticStrain.max() > .01),
-    'failure': (plastic(strengthScatter=.1, **kFails), 100, lambda fe: fe.numCracks > 0),
+    'plastic': (fe_impact.plate, 100, lambda fe: fe.plasticStrain.max() > .01),
+    'failure': (lambda: fe_impact.plate(weibullModulus=8, **fe_impact.FAILS), 100, lambda fe: fe.numCracks > 0),
     'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0),
-    'clump on cracks': (wallAndClump, 150, lambda fe: fe.numCracks > 0),
+    'clump on cracks': (fe_impact.wallAndClump, 150, lambda fe: fe.numCracks > 0),
 }
+# YADE's loop changes the contacts of spheres before FESolver can refuse a step.
+kSpheres = 'elastic disc and sphere', 'clump on cracks'
 # Each of those that are long takes some ten seconds; 'rate' has cohesive cracks, too.
 kNames = [pytest.param(name, marks=[pytest.mark.long] * (name in ('cohesion', 'petersson', 'table'))) for name in kScenes]
 pytestmark = pytest.mark.filterwarnings('ignore:fractureEnergy', 'ignore:.*less than four elements')
+
+
+def refuse():
+    """Steps that FESolver refuses change nothing."""
+    before, fair = state(), O.dt
+    piece = [b.id for b in O.bodies if b and isinstance(b.shape, w.SurfaceSegment)][-1]
+    for force in ((math.inf, 0, 0), (0, math.nan, 0), (1e300, -1e300, 0), (1e12, 0, 0)):
+        O.forces.setPermF(piece, force)
+        with pytest.raises(RuntimeError, match='Step .*(not finite|range of numbers|a node moves)'):
+            O.step()
+        O.forces.setPermF(piece, (0, 0, 0))
+        assert differences(before, state()) == [], force
+    if isinstance(O.engines[0], w.PyRunner) or solverOfScene().plasticStrain.any():  # they set the step themselves
+        return
+    O.dt = 50 * fair
+    with pytest.raises(ValueError, match='must be above 0 and at most'):
+        O.step()
+    O.dt = fair
+    assert differences(before, state()) == []
 
 
 def start(name, threads=1):
@@ -191,22 +196,42 @@ def test_savedAndLoaded(name, folder):
 
 
 @pytest.mark.parametrize('name', kNames)
-def test_threads(name):
-    O.run(2 * start(name), True)
+def test_threadsAndRefusedSteps(name):
+    steps = start(name)
+    O.run(2 * steps, True)
     wanted = state()
-    O.run(2 * start(name, 2), True)
+    start(name, 2)
+    for part in range(1, 5):
+        O.run(2 * steps * part // 4 - O.iter, True)
+        if part < 4 and name not in kSpheres:
+            refuse()
     assert differences(wanted, state()) == []
 
 
-@pytest.mark.parametrize('name', ['elastic disc and sphere', 'cracks', 'rate', 'clump on cracks'])
+def behind(engines):
+    return [engine for engine in engines if not isinstance(engine, w.Collider)] + engines[1:2]
+
+
+def withoutItsFunctor(engines):
+    return [engines[0], w.LebesgueCollider([w.Bo1_Sphere_Aabb()]), *engines[2:]]
+
+
+@pytest.mark.parametrize('name', ['elastic', 'smooth', 'cracks', 'rate', 'dropped', *kSpheres])
 def test_colliders(name):
-    found = []
-    for one in ('LebesgueCollider', 'InsertionSortCollider'):
-        steps = start(name)
-        O.engines = [finder(one) if 'Collider' in type(engine).__name__ else engine for engine in O.engines]
+    """Any collider, and without spheres also none, one behind the solver, and one that has no functor for pieces."""
+    others = () if name in kSpheres else (None, behind, withoutItsFunctor)
+    wanted = None
+    for one in ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider', 'InsertionSortCollider', *others):
+        steps, engines = start(name), O.engines
+        assert isinstance(engines[1], w.Collider)
+        O.engines = one(engines) if callable(one) else [engines[0], *([finder(one)] if one else []), *engines[2:]]
         O.run(2 * steps, True)
-        found.append(state())
-    assert differences(*found) == []
+        wanted = wanted or state()
+        assert differences(wanted, state()) == [], one
+        assert kScenes[name][2](solverOfScene())
+        assert not others or solverOfScene().numSearches < 2 * steps and not list(O.interactions)
+        # Where nothing could meet the bounds, no search is requested.
+        assert one is not behind or O.engines[-1].numAction == 1
 
 
 def test_loadedScenesMayChange(folder):

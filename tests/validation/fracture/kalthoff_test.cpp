@@ -9,8 +9,8 @@
 #include <string>
 
 #include "meshing/triangulate.hpp"
+#include "step/bodies.hpp"
 #include "step/figures.hpp"
-#include "validation/fracture/open_edges.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -65,7 +65,7 @@ Crack crackOf(const World& world) {
   Crack crack;
   double along = 0, up = 0;
   Vec2 top = kTip;
-  for (const OpenEdge& edge : openEdges(world)) {
+  for (const CrackLine& edge : cracksOf(world, true)) {
     const Vec2 from = edge.middle() - kTip;
     if (from.y < 0 || (from.x < .01 && from.y < .005)) continue;
     along += from.x * from.y;

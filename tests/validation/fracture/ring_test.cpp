@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "fracture/overlaps.hpp"
-#include "fracture/whole_pieces.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 

@@ -98,15 +98,10 @@ void bentBeam(Scene& scene) {
 /// 10 mm of mean radius, 1 mm wide, expanding by 10⁴/s, from 0.8 of the strength.
 void expandingRing(Scene& scene) {
   constexpr double kRadius = 10e-3, kWidth = 1e-3, kSize = 2.5e-4;
-  Polygon polygon;
-  polygon.holes.resize(1);
   const int corners = static_cast<int>(2 * std::numbers::pi * kRadius / kSize);
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / corners;
-    const Vec2 at{std::cos(angle), std::sin(angle)};
-    polygon.outline.push_back((kRadius + kWidth / 2) * at);
-    polygon.holes[0].push_back((kRadius - kWidth / 2) * Vec2{at.x, -at.y});
-  }
+  Polygon polygon{circle({}, kRadius + kWidth / 2, corners),
+                  {circle({}, kRadius - kWidth / 2, corners)}};
+  for (Vec2& x : polygon.holes[0]) x.y = -x.y;
   const TriangleMesh mesh = triangulate(polygon, kSize);
   BodySpec spec;
   spec.material = {275e9, .2, 2750, true};

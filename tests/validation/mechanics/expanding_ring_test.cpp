@@ -15,7 +15,7 @@
 #include <string>
 
 #include "fracture/edge_strength.hpp"
-#include "fracture/whole_pieces.hpp"
+#include "fracture/overlaps.hpp"
 #include "plasticity/yielding_bodies.hpp"
 #include "step/figures.hpp"
 
@@ -78,15 +78,9 @@ std::vector<double> scattered(const TriangleMesh& mesh, std::uint64_t seed) {
 /// With `rows` triangles across, its points turned by `turn` (rad).
 TriangleMesh ringMesh(int rows, std::uint64_t seed, double turn = 0) {
   const double size = kWidth / rows;
-  const auto count = std::lround(kAround / size);
-  Polygon polygon;
-  polygon.holes.resize(1);
-  for (long i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * double(i) / double(count) + turn;
-    const Vec2 out{std::cos(angle), std::sin(angle)};
-    polygon.outline.push_back((kRadius + kWidth / 2) * out);
-    polygon.holes[0].push_back((kRadius - kWidth / 2) * out);
-  }
+  const int count = static_cast<int>(std::lround(kAround / size));
+  const Polygon polygon{circle({}, kRadius + kWidth / 2, count, turn),
+                        {circle({}, kRadius - kWidth / 2, count, turn)}};
   return triangulate(polygon, size, {NodeLayout::kScattered, seed});
 }
 

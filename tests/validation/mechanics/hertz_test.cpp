@@ -5,13 +5,210 @@
 // block of sixteen half widths and the strains of some per cent are not.
 
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "step/bodies.hpp"
 #include "step/figures.hpp"
-#include "step/hertz.hpp"
 
 namespace yadefrag::test {
 namespace {
+
+/// The case, in SI units, and its closed form (plane strain, two half spaces).
+struct Hertz {
+  double radius = .05;  ///< m, of the cylinder
+  double line = 35e6;   ///< N/m, load
+  ElasticMaterial cylinder{210e9, .3, 7800, false};
+  ElasticMaterial block{70e9, .3, 2600, false};  ///< waves as fast as in the cylinder
+
+  [[nodiscard]] double modulus() const {  // Pa, E*
+    const auto compliance = [](const ElasticMaterial& m) {
+      return (1 - m.poisson * m.poisson) / m.young;
+    };
+    return 1 / (compliance(cylinder) + compliance(block));
+  }
+  [[nodiscard]] double halfWidth() const {  // m
+    return std::sqrt(4 * line * radius / (std::numbers::pi * modulus()));
+  }
+  /// Pa, p₀
+  [[nodiscard]] double pressure() const { return 2 * line / (std::numbers::pi * halfWidth()); }
+};
+
+struct HertzMesh {
+  double cylinder, block;  ///< m, edges at the contact
+  bool smooth = false;
+  int passes = 2;
+};
+
+struct PressureAt {
+  double x, p;  ///< m, Pa
+};
+
+/// What is measured once all is at rest.
+struct HertzResult {
+  double peak = 0;         ///< Pa, p₀ by least squares of p² = p₀²(1 − x²/a²)
+  double fitted = 0;       ///< m, a of the same fit
+  double touching = 0;     ///< m, half of what the loaded nodes cover
+  double rough = 0;        ///< rms of p − fit within 0.9 a, over p₀
+  double waviness = 0;     ///< rms of second differences of p − fit within 0.9 a, over p₀
+  double total = 0;        ///< contact force over load
+  double kinetic = 0;      ///< over strain energy
+  double penetration = 0;  ///< m
+  std::vector<PressureAt> profile;
+};
+
+constexpr double kSize = .01;             // m, of edges far from the contact
+constexpr double kWide = .1, kDeep = .1;  // m, half width and depth of the block
+
+/// Distances from the contact's middle up to `end`: even by `fine` where there may be contact, then
+/// wider and wider.
+std::vector<double> graded(double fine, double even, double end) {
+  std::vector<double> at{0};
+  while (at.back() < end) {
+    const double step = std::min(kSize, fine + std::max(0., .25 * (at.back() - even)));
+    at.push_back(at.back() + step);
+  }
+  const double scale = end / at.back();
+  for (double& s : at) s *= scale;
+  return at;
+}
+
+/// From −end to end, both left out.
+std::vector<double> bothSides(const std::vector<double>& right) {
+  std::vector<double> all;
+  for (std::size_t i = right.size() - 1; i-- > 1;) all.push_back(-right[i]);
+  all.insert(all.end(), right.begin(), right.end() - 1);
+  return all;
+}
+
+TriangleMesh halfCylinder(const Hertz& hertz, double fine) {
+  const double r = hertz.radius;
+  Polygon polygon;
+  polygon.outline = {{r, r}, {0, r}, {-r, r}};
+  for (const double s : bothSides(graded(fine, 1.5 * hertz.halfWidth(), std::numbers::pi / 2 * r)))
+    polygon.outline.push_back({r * std::sin(s / r), r - r * std::cos(s / r)});
+  return triangulate(polygon, kSize);
+}
+
+TriangleMesh plate(const Hertz& hertz, double fine) {
+  Polygon polygon;
+  polygon.outline = {{-kWide, -kDeep}, {kWide, -kDeep}, {kWide, 0}};
+  std::vector<double> top = bothSides(graded(fine, 1.5 * hertz.halfWidth(), kWide));
+  for (auto s = top.rbegin(); s != top.rend(); ++s) polygon.outline.push_back({*s, 0});
+  polygon.outline.push_back({-kWide, 0});
+  return triangulate(polygon, kSize);
+}
+
+/// Nodes where the surfaces can meet become smooth.
+void smoothNear(BodySpec& spec, const TriangleMesh& mesh, double reach) {
+  spec.smoothNodes.assign(mesh.nodes.size(), 0);
+  for (const std::uint32_t node : mesh.loops[0])
+    if (std::abs(mesh.nodes[node].x) < reach && std::abs(mesh.nodes[node].y) < reach)
+      spec.smoothNodes[node] = 1;
+}
+
+/// An even load on the flat top.
+void loadTop(World& world, ComponentId cylinder, const Hertz& hertz) {
+  std::vector<std::pair<double, std::size_t>> row;
+  for (std::size_t i = 0; i < world.model.nodes.reference.size(); ++i)
+    if (world.model.nodes.component[i] == cylinder &&
+        world.model.nodes.reference[i].y > hertz.radius * (1 - 1e-9))
+      row.emplace_back(world.model.nodes.reference[i].x, i);
+  std::sort(row.begin(), row.end());
+  world.model.nodes.load.assign(world.model.nodes.size(), {});
+  for (std::size_t k = 0; k + 1 < row.size(); ++k)
+    for (const std::size_t end : {k, k + 1})
+      world.model.nodes.load[row[end].second].y -=
+          hertz.line * (row[k + 1].first - row[k].first) / (4 * hertz.radius);
+}
+
+/// Nodal contact force over tributary length along a body's boundary, where there is any.
+std::vector<PressureAt> pressures(const World& world, ComponentId on) {
+  std::vector<PressureAt> profile;
+  const ContactSurfaces& surfaces = world.surfaces;
+  const auto& x = world.model.nodes.position;
+  for (std::size_t s = 0; s < surfaces.segments(); ++s) {
+    const NodeId node = surfaces.segmentNode[s];
+    const double force = norm(world.contact.forces()[node.value]);
+    if (world.model.nodes.component[node.value] != on || force == 0) continue;
+    const Vec2 before = x[surfaces.segmentNode[surfaces.segmentPrev[s].value].value];
+    const Vec2 after = x[surfaces.segmentNode[surfaces.segmentNext[s].value].value];
+    const double length = (norm(x[node.value] - before) + norm(after - x[node.value])) / 2;
+    profile.push_back({x[node.value].x, force / length});
+  }
+  std::sort(profile.begin(), profile.end(),
+            [](const PressureAt& a, const PressureAt& b) { return a.x < b.x; });
+  return profile;
+}
+
+/// Least squares of p² = A − B x².
+void fit(HertzResult& result) {
+  double n = 0, q = 0, qq = 0, y = 0, qy = 0;
+  for (const auto& [x, p] : result.profile) {
+    n += 1, q += x * x, qq += x * x * x * x, y += p * p, qy += x * x * p * p;
+  }
+  const double b = -(n * qy - q * y) / (n * qq - q * q);
+  const double a = (y + b * q) / n;
+  result.peak = std::sqrt(a);
+  result.fitted = std::sqrt(a / b);
+}
+
+/// How far from the fit, and how uneven from node to node.
+void roughness(HertzResult& result) {
+  std::vector<double> off;
+  for (const auto& [x, p] : result.profile) {
+    const double at = x / result.fitted;
+    if (std::abs(at) < .9) off.push_back(p / result.peak - std::sqrt(1 - at * at));
+  }
+  double sum = 0, second = 0;
+  for (const double o : off) sum += o * o;
+  for (std::size_t i = 1; i + 1 < off.size(); ++i)
+    second += std::pow(off[i - 1] - 2 * off[i] + off[i + 1], 2);
+  result.rough = std::sqrt(sum / static_cast<double>(off.size()));
+  result.waviness = std::sqrt(second / static_cast<double>(off.size() - 2));
+}
+
+HertzResult measure(const World& world, ComponentId coarser, const Hertz& hertz) {
+  HertzResult result;
+  result.profile = pressures(world, coarser);
+  double force = 0;
+  for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
+    if (world.model.nodes.component[i] == coarser) force += world.contact.forces()[i].y;
+  result.total = std::abs(force) / hertz.line;
+  result.kinetic = world.kineticEnergy() / world.strainEnergy();
+  result.penetration = world.contact.maxPenetration();
+  result.touching = (result.profile.back().x - result.profile.front().x) / 2;
+  fit(result);
+  roughness(result);
+  return result;
+}
+
+HertzResult press(const Hertz& hertz, const HertzMesh& mesh) {
+  World world;
+  world.contactSettings.passes = mesh.passes;
+  const TriangleMesh upper = halfCylinder(hertz, mesh.cylinder), lower = plate(hertz, mesh.block);
+  BodySpec a = moving(upper, hertz.cylinder, {}), b = moving(lower, hertz.block, {});
+  // The cylinder would roll or slide: its two nodes on the axis of symmetry stay there.
+  hold(a, upper, kHeldX, [&](Vec2 x) {
+    return norm(x) < 1e-9 || norm(x - Vec2{0, hertz.radius}) < 1e-9;
+  });
+  hold(b, lower, kHeldXY, [](Vec2 x) { return x.y < -kDeep + 1e-9; });
+  if (mesh.smooth) {
+    smoothNear(a, upper, .6 * hertz.radius);
+    smoothNear(b, lower, .6 * hertz.radius);
+  }
+  const ComponentId cylinder = world.addBody(upper, a), block = world.addBody(lower, b);
+  loadTop(world, cylinder, hertz);
+  // The cylinder bouncing on the block: some 5 kHz.
+  world.dynamicsSettings.damping = 2 * 2 * std::numbers::pi * 5e3;
+  const double dt = .8 * world.criticalTimeStep();
+  while (world.time < .7e-3) world.step(dt);
+  return measure(world, mesh.cylinder > mesh.block ? cylinder : block, hertz);
+}
 
 constexpr double kFinest = 3622e6;  // Pa, p₀ of smooth surfaces on our finest mesh
 constexpr HertzMesh kCoarse{.cylinder = .75e-3, .block = .5e-3};

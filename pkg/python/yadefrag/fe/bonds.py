@@ -2,10 +2,8 @@
 
 import numpy
 
-from yadefrag.arguments import positive
-from yadefrag.fe.between_steps import requireBetweenSteps
-from yadefrag.fe.contents import bodyNumber
-from yadefrag.hints import FESolver
+from yadefrag.arguments import FESolver, positive
+from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
 from yadefrag.messages import warn, warnOfOne
 
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from yadefrag.hints import FESolver
+from yadefrag.arguments import FESolver, refuse, shown
 
 
 class Field(NamedTuple):
@@ -73,3 +73,24 @@ def drawnValues(fe: FESolver, name: str) -> numpy.ndarray:
     if field.drawn:
         return field.drawn(values)
     return numpy.linalg.norm(values, axis=1) if values.ndim == 2 else values
+
+
+def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[None, None]:
+    """(values, True for one per node) of a field by its name in FIELDS, or of an array; both None for no field."""
+    if field is None:
+        return None, None
+    if isinstance(field, str):
+        if field not in FIELDS:
+            refuse('field', field, 'one of %s, an array or None' % ', '.join(map(repr, FIELDS)))
+        return drawnValues(fe, field), FIELDS[field].ofNodes
+    try:
+        values = numpy.asarray(field, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        refuse('field', field, 'a name, an array or None')
+    nodes, triangles = len(fe.nodes), len(fe.triangles)
+    if values.shape == (triangles,):
+        return values, False
+    if values.shape == (nodes,):
+        return values, True
+    raise ValueError('field has the shape %s, it must be one number for each of the %d triangles '
+                     'or of the %d nodes.' % (shown(values.shape), triangles, nodes))

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator
 import numpy
 
 from yadefrag import _yadefrag, arguments
-from yadefrag.hints import ArrayLike, Loop
-from yadefrag.libraries import shapely, treeOf
+from yadefrag.arguments import ArrayLike, Loop
+from yadefrag.messages import shapely, treeOf
 
 MOST_GRAINS = 10**5
 _TRIES = 10**4  # random points for a grain: of an outline that fills a thousandth of its box, ten are inside on average
@@ -191,10 +191,8 @@ def grainJoints(grains: Iterable[ArrayLike]) -> list[tuple[tuple, tuple]]:
     grains  list of outlines, as `voronoi` returns them. A side is common if both its ends are the same
     points in both grains. ValueError for anything else than outlines.
     """
-    if isinstance(grains, (str, bytes, dict, set, type)) or not hasattr(grains, '__iter__'):
-        arguments.refuse('grains', grains, 'a list of outlines')
     known, joints = set(), []
-    for i, grain in enumerate(grains):
+    for i, grain in enumerate(arguments.listOf('grains', grains, 'a list of outlines')):
         corners = [tuple(p) for p in arguments.pointsOf('grains[%d]' % i, grain, 3).tolist()]
         for side in _sides(corners):
             if side[::-1] in known:

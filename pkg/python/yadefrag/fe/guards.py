@@ -4,9 +4,8 @@ import functools
 import numbers
 
 from yade import wrapper
-from yadefrag.calls import inWords
-from yadefrag.fe.between_steps import requireBetweenSteps
-from yadefrag.fe.contents import bodyNumber
+from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
+from yadefrag.messages import inWords
 
 
 def _pieceOf(body):
@@ -15,21 +14,23 @@ def _pieceOf(body):
     return shape if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0 else None
 
 
-def _pieceAt(container, id):
+def _refuse(id, piece, words):
+    raise ValueError('body #%d is part of the boundary of body %d of FESolver%s.' %
+                     (id, piece.component, words.replace('{}', '%d' % piece.component)))
+
+
+def _requireNoPiece(container, id, words=', it cannot be in a clump'):
     isPlace = isinstance(id, numbers.Integral) and 0 <= int(id) < len(container)
-    return _pieceOf(container[int(id)]) if isPlace else None
+    piece = _pieceOf(container[int(id)]) if isPlace else None
+    if piece:
+        _refuse(id, piece, words)
 
 
 def _guardErase(erase):
     """O.bodies.erase that does not erase single pieces of a boundary."""
     @functools.wraps(erase)
     def guarded(self, id, eraseClumpMembers=False):
-        piece = _pieceAt(self, id)
-        if piece:
-            raise ValueError(
-                'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
-                'alone; FESolver.removeBody(%d) removes the whole body.' %
-                (id, piece.component, piece.component))
+        _requireNoPiece(self, id, ', it cannot be erased alone; FESolver.removeBody({}) removes the whole body')
         return erase(self, id, eraseClumpMembers)
     return guarded
 
@@ -38,19 +39,9 @@ def _guardInsert(insert):
     """O.bodies.insertAtId that does not replace a piece of a boundary."""
     @functools.wraps(insert)
     def guarded(self, body, id):
-        piece = _pieceAt(self, id)
-        if piece:
-            raise ValueError('body #%d is part of the boundary of body %d of FESolver, another one '
-                             'cannot replace it.' % (id, piece.component))
+        _requireNoPiece(self, id, ', another one cannot replace it')
         return insert(self, body, id)
     return guarded
-
-
-def _requireNoPiece(container, id):
-    piece = _pieceAt(container, id)
-    if piece:
-        raise ValueError('body #%d is part of the boundary of body %d of FESolver, it cannot be '
-                         'in a clump.' % (id, piece.component))
 
 
 def _guardClump(clump):
@@ -58,13 +49,9 @@ def _guardClump(clump):
     for which YADE would end the process."""
     @functools.wraps(clump)
     def guarded(self, ids, *others, **settings):
-        try:
-            ids = list(ids)
-        except TypeError:
-            pass  # no list: YADE raises the exception
-        else:
-            for id in ids:
-                _requireNoPiece(self, id)
+        ids = list(ids) if hasattr(ids, '__iter__') else ids  # no list: YADE raises the exception
+        for id in ids if isinstance(ids, list) else ():
+            _requireNoPiece(self, id)
         return clump(self, ids, *others, **settings)
     return guarded
 
@@ -87,8 +74,7 @@ def _guardPart(name):
     def guarded(self, value):
         piece = _pieceOf(self)
         if piece:
-            raise ValueError('body #%d is part of the boundary of body %d of FESolver: a script '
-                             'must not replace its %s.' % (self.id, piece.component, name))
+            _refuse(self.id, piece, ': a script must not replace its %s' % name)
         part.fset(self, value)
     return property(part.fget, guarded, doc=part.__doc__)
 

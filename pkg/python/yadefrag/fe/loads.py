@@ -9,13 +9,12 @@ from collections.abc import Callable
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import array, flag, number, positive, refuse, requireTakes, shown, whole
-from yadefrag.fe.between_steps import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
+from yadefrag.arguments import (ArrayLike, FESolver, Nodes, array, flag, number, positive, refuse, requireTakes,
+                                shown, whole)
+from yadefrag.fe.contents import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
 from yadefrag.fe.motions import chosenNodes, tableOrNumber
-from yadefrag.hints import ArrayLike, FESolver, Nodes
 from yadefrag.messages import warn
-from yadefrag.scene import lifecycle
-from yadefrag.scene.progress import runPart
+from yadefrag.scene.lifecycle import runPart, stepsDone, wholeSteps
 
 _LOOK = 25  # steps from one evaluation of the motion to the next
 _DAMPING = .4  # of NewtonIntegrator, while spheres come to rest
@@ -107,22 +106,22 @@ def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
     tolerance = positive('tolerance', tolerance, 'a ratio of energies')
     most = whole('most', most)
     requireNoStep('relax')
-    before, begin = self.damping, lifecycle.stepsDone()
+    before, begin = self.damping, stepsDone()
     movers = [(one, one.damping) for one in wrapper.Omega().engines if isinstance(one, wrapper.NewtonIntegrator)]
     try:
         if _areSpheres(_freeBodies()):
             for mover, damping in movers:
                 mover.damping = max(damping, _DAMPING)
-        with lifecycle.wholeSteps():
+        with wholeSteps():
             calm, ratio = _damped(self, tolerance, most)
     except KeyboardInterrupt:
-        print('relax: stopped after %d steps.' % (lifecycle.stepsDone() - begin), file=sys.stderr)
+        print('relax: stopped after %d steps.' % (stepsDone() - begin), file=sys.stderr)
         raise
     finally:
         self.damping = before
         for mover, damping in movers:
             mover.damping = damping
-    done = lifecycle.stepsDone() - begin
+    done = stepsDone() - begin
     if calm < 2:
         warn('relax: after %d steps the kinetic energy is still %.3g of the elastic energy%s.' %
              (done, ratio, ', with that of %d bodies of YADE' % len(_freeBodies()) if _freeBodies() else ''))

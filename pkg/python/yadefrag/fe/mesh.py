@@ -1,20 +1,50 @@
-"""Mesh: the mesh of a body that is not added yet, held in C++; the forms in which a script may give one."""
+"""Mesh: the mesh of a body that is not added yet, held in C++. A script gives its arrays, or an outline with holes
+(polygonMesh)."""
 
 from __future__ import annotations
 
+import inspect
+import math
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy
 
 from yadefrag import _yadefrag
 from yadefrag._yadefrag import Mesh
-from yadefrag.arguments import array, flag, pair, pointsOf, refuse, shown, whole
-from yadefrag.calls import inWords
-from yadefrag.hints import ArrayLike
-from yadefrag.io.mesh_checks import requireApart
-from yadefrag.io.mesh_files import MeshFile
+from yadefrag.arguments import (ArrayLike, ByPlace, FESolver, array, flag, listOf, number, pair, pointsOf, positive,
+                                refuse, requireTakes, shown, whole)
+from yadefrag.fe.geometry import holesOf, simplified
+from yadefrag.fe.mesh_values import isClockwise, isField, mayCrack, smoothFlags, smoothNodes
+from yadefrag.io.mesh_files import MeshFile, requireApart
+from yadefrag.messages import inWords, warn
 
 _fill = Mesh.__init__  # from checked arrays
+_SPACING = .2  # of the size: nearer vertices of the neighbours give one vertex
+_JOINTS = .1   # of the size: default tolerance of joints
+_LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
+
+# Arguments of polygonMesh and addPolygon.
+ARGUMENTS = inspect.cleandoc("""outline, holes  list of points (x, y) in m, and a list of such lists
+    size            length of the triangles' edges (m), or a function (x, y) → m. The function is
+                    sampled on a grid of at least 128 and at most 1024 cells along the longer side.
+                    Where it grows by more than 0.25 m per metre, it is lowered to that.
+    smooth          False: straight boundary; True: C¹-smooth everywhere, inside the outline; or
+                    one flag per point of the outline (the holes are then straight): True: the corner
+                    there is smoothed
+    meshSeed        seed of an irregular mesh: the same outline, size and seed give the same mesh
+    simplify        None: the outline as given; or the permitted distance (m) of its points, and those
+                    of the holes, from the meshed outline: redundant points are removed before meshing,
+                    e.g. those of a contour of pixels. No edges cross by it; corners between edges much
+                    longer than the distance are kept, and so are straight corners that are next to
+                    smooth ones in `smooth`. It must be less than the area over the length of the
+                    outline and of each hole. By the rule of Douglas and Peucker (1973, Cartographica
+                    10, 112)
+    joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie on these
+                    lines. Lines may cross each other and the outline; parts outside are ignored.
+                    Ends and crossings nearer than a tolerance to each other, to another line or to the
+                    outline are joined; a warning states how many and how far
+""")
 
 
 def _init(self, nodes, triangles):
@@ -132,3 +162,146 @@ def rectangleMesh(low: ArrayLike, high: ArrayLike, nx: int, ny: int, crossed: bo
     if not (low[0] < high[0] and low[1] < high[1]):
         raise ValueError('high is %s, it must be right of and above low, %s.' % (shown(high), shown(low)))
     return _yadefrag.meshOfRectangle(*low, *high, nx, ny, crossed)
+
+
+def withArguments(text: str | None) -> str:
+    """A docstring with ARGUMENTS for its {arguments}. Both without indentation: Python removes that of docstrings
+    since 3.13."""
+    return inspect.cleandoc(text or '').replace('{arguments}', ARGUMENTS)
+
+
+def _sampledSize(function, points):
+    """(left, bottom, cell, columns, values): the size at the points of a square grid."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    samples = _LEAST_SAMPLES
+    while True:
+        cell = float((high - low).max()) / samples
+        columns, rows = (max(2, int(math.ceil(side / cell - 1e-9)) + 1) for side in high - low)
+        places = [(float(low[0] + i * cell), float(low[1] + j * cell)) for j in range(rows)
+                  for i in range(columns)]
+        values = numpy.array([positive('size(%g, %g)' % (x, y), function(x, y), 'm') for x, y in places])
+        if values.min() >= cell or samples >= _MOST_SAMPLES:
+            return float(low[0]), float(low[1]), cell, columns, values
+        samples *= 2
+
+
+def isIrregular(mesh: str | None, material: object) -> bool:
+    """True for an irregular mesh, by the argument `mesh`; None: irregular for a body that can
+    crack, or whose materials are known only after meshing."""
+    if mesh is None:
+        return isField(material) or mayCrack(material)
+    if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
+        refuse('mesh', mesh, "'regular', 'irregular' or None")
+    return mesh == 'irregular'
+
+
+def jointLines(joints: Any) -> numpy.ndarray:
+    """(k, 4) floats, the ends of each joint: addPolygon's `joints`."""
+    lines = listOf('joints', joints, 'a list of pairs of points ((x, y), (x, y)) in m')
+    ends = numpy.zeros((len(lines), 4))
+    for i, line in enumerate(lines):
+        right = 'a pair of points ((x, y), (x, y)) in m'
+        both = listOf('joints[%d]' % i, line, right)
+        if len(both) != 2:
+            refuse('joints[%d]' % i, line, right)
+        ends[i] = [*pair('joints[%d][0]' % i, both[0]), *pair('joints[%d][1]' % i, both[1])]
+    return ends
+
+
+def sizeOf(size: Any, points: numpy.ndarray) -> tuple:
+    """addPolygon's `size`, as _yadefrag.meshOfPolygon takes it: (m,), or a sampled function."""
+    if callable(size):
+        requireTakes('size', size, 'x', 'y')
+        return _sampledSize(size, points)
+    return (number('size', size, lambda v: math.isfinite(v) and v > 0,
+                   'a positive number (m) or a function (x, y) that returns one'),)
+
+
+def leastSize(wanted: tuple) -> float:
+    """(m) The smallest size of a result of sizeOf."""
+    return wanted[0] if len(wanted) == 1 else float(wanted[4].min())
+
+
+class Outline:
+    """An outline, its holes, and the flags of `smooth`: True, False, or an array by point."""
+
+    def __init__(self, points: numpy.ndarray, holes: list[numpy.ndarray], smooth: Any) -> None:
+        self.points, self.holes, self.smooth = points, holes, smooth
+
+    def simplified(self, tolerance: float) -> Outline:
+        """The Outline without redundant points, as by addPolygon's `simplify`."""
+        isOne = isinstance(self.smooth, bool)
+        points, holes, flags = simplified(self.points, self.holes, tolerance, None if isOne else self.smooth)
+        return Outline(points, holes, self.smooth if isOne else flags)
+
+    def snapped(self, fe: FESolver, tolerance: float, size: float, matches: bool) -> tuple[Any, ...]:
+        """(Outline, moved, inserted, farthest) on the present bodies of `fe`."""
+        loops, *count = fe._snap(self.points, self.holes, (tolerance, _SPACING * size, matches))
+        (points, vertex, inserted), *holes = loops
+        smooth = self.smooth
+        if not isinstance(smooth, bool):
+            if isClockwise(self.points):  # the result has it reversed, with the same first point
+                smooth = smooth[-numpy.arange(len(smooth)) % len(smooth)]
+            within = smooth[vertex] & numpy.roll(smooth, -1)[vertex]
+            smooth = numpy.where(inserted == 1, within, smooth[vertex])
+        return (Outline(points, [hole[0] for hole in holes], smooth), *count)
+
+
+class Meshing:
+    """The checked arguments of polygonMesh.
+
+    outline         an Outline
+    size            the smallest size (m)
+    lines           (k, 4) joints
+    jointTolerance  m
+    """
+
+    def __init__(self, outline: Any, holes: Any, size: Any, mesh: str | None, meshSeed: int, smooth: Any,
+                 simplify: float | None, joints: Any, jointTolerance: float | None,
+                 material: Any = None) -> None:
+        points = pointsOf('outline', outline, 3)
+        loops = holesOf(holes)
+        self.outline = Outline(points, loops, smoothFlags(smooth, len(points)))
+        if simplify is not None:
+            self.outline = self.outline.simplified(simplify)
+        self.lines = jointLines(joints)
+        self._irregular = isIrregular(mesh, material)
+        self._sizes = sizeOf(size, self.outline.points)
+        self.size = leastSize(self._sizes)
+        self.jointTolerance = _JOINTS * self.size if jointTolerance is None else jointTolerance
+        self._seed = whole('meshSeed', meshSeed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
+
+    def mesh(self, outline: Outline, jointTolerance: float) -> Mesh:
+        made = _yadefrag.meshOfPolygon(outline.points, outline.holes, self._sizes, self._irregular, self._seed,
+                                       self.lines, jointTolerance)
+        made.smooth = smoothNodes(outline.smooth, made, outline.points)
+        return made
+
+
+def polygonMesh(outline: ArrayLike, holes: Iterable[ArrayLike] = (), *, size: float | ByPlace,
+                mesh: str | None = 'irregular', meshSeed: int = 0, smooth: bool | Sequence[bool] = False,
+                simplify: float | None = None, joints: Iterable[Sequence[ArrayLike]] = (),
+                jointTolerance: float | None = None) -> Mesh:
+    """The Mesh of a polygon, for one or several bodies: `fe.addMesh(polygonMesh(outline, size=.1), material)`.
+
+    {arguments}
+    mesh            'irregular': edges in all directions, for cracks that do not follow the mesh;
+                    'regular', None: rows of nearly equilateral triangles, whose edges have few directions
+    jointTolerance  m, of `joints`; None: 0.1 of the smallest size; 0: rounding only
+    ValueError for an outline that addPolygon would refuse.
+    """
+    if jointTolerance is not None:
+        jointTolerance = number('jointTolerance', jointTolerance, lambda v: 0 <= v < float('inf'),
+                                '0, a positive number (m), or None')
+    meshing = Meshing(outline, holes, size, mesh, meshSeed, smooth, simplify, joints, jointTolerance)
+    made = meshing.mesh(meshing.outline, meshing.jointTolerance)
+    made._meshing = meshing
+    count, farthest = made.joined
+    if count:
+        warn('polygonMesh: of the joints, %d ends, crossings and bends near another line were joined with it, and '
+             'moved by at most %.3g m, %.2g of the size (jointTolerance=).' %
+             (count, farthest, farthest / meshing.size))
+    return made
+
+
+polygonMesh.__doc__ = withArguments(polygonMesh.__doc__)

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy
 
-from yadefrag.arguments import array, atPlaces, flag, number, pair, real, refuse, requireTakes
-from yadefrag.fe.between_steps import calledInStep, requireBetweenSteps
-from yadefrag.fe.contents import isBody
-from yadefrag.hints import ArrayLike, FESolver, Nodes
+from yadefrag.arguments import (ArrayLike, FESolver, Nodes, array, atPlaces, flag, number, pair, real, refuse,
+                                requireTakes)
+from yadefrag.fe.contents import calledInStep, isBody, requireBetweenSteps
 from yadefrag.messages import warn
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
@@ -76,18 +75,18 @@ def tableOrNumber(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, nump
     return table
 
 
-def _kind(name, value, count):
-    """('none' | 'each' | 'table' | 'function', the converted value)."""
+def _motion(name, value, count):
+    """None, a function, an array (count), or a table: (times, values)."""
     if value is None:
-        return 'none', numpy.zeros(count)
+        return None
     if callable(value):
         requireTakes(name, value, 'x', 'y', 't')
-        return 'function', value
+        return value
     if real(value) is not None:
-        return 'each', numpy.full(count, number(name, value, math.isfinite, _RIGHT))
+        return numpy.full(count, number(name, value, math.isfinite, _RIGHT))
     table = timeTable(name, value, 'm/s')
     if table is not None:
-        return 'table', table
+        return table
     each = array(value)
     if each is None or each.ndim != 1 or each.dtype.kind not in 'iuf':
         refuse(name, value, _RIGHT)
@@ -96,7 +95,7 @@ def _kind(name, value, count):
                          (name, len(each), count))
     if not numpy.isfinite(each).all():
         raise ValueError('%s has a value that is not finite (m/s).' % name)
-    return 'each', each.astype(float)
+    return each.astype(float)
 
 
 def prescribe(self: FESolver, nodes: Nodes,
@@ -119,42 +118,39 @@ def prescribe(self: FESolver, nodes: Nodes,
     """
     requireBetweenSteps()
     chosen = chosenNodes(self, nodes)
-    kinds, values = zip(*[_kind(name, value, len(chosen)) for name, value in (('vx', vx), ('vy', vy))])
-    held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')
-    if not {'table', 'function'} & set(kinds):
-        self._prescribe(chosen, held, numpy.column_stack(values))
+    given = dict(vx=vx, vy=vy)
+    motions = {name: _motion(name, value, len(chosen)) for name, value in given.items()}
+    held = (vx is not None) + 2 * (vy is not None)
+    if not any(callable(one) or isinstance(one, tuple) for one in motions.values()):
+        none = numpy.zeros(len(chosen))
+        self._prescribe(chosen, held, numpy.column_stack([none if one is None else one for one in motions.values()]))
         return
-    for i, given in enumerate((vx, vy)):
-        if kinds[i] != 'each':
-            continue
-        if real(given) is None:
-            raise ValueError('%s is an array, but the other direction is not: give arrays or numbers '
-                             'for both, or neither.' % ('vx', 'vy')[i])
-        kinds = kinds[:i] + ('table',) + kinds[i + 1:]
-        values = values[:i] + (tableOrNumber('v', given, 'm/s'),) + values[i + 1:]
-    _move(self, chosen, held, (0., 0.), kinds, values)
+    for name, value in given.items():
+        if isinstance(motions[name], numpy.ndarray):
+            if real(value) is None:
+                raise ValueError('%s is an array, but the other direction is not: give arrays or numbers '
+                                 'for both, or neither.' % name)
+            motions[name] = tableOrNumber('v', value, 'm/s')
+    _move(self, chosen, held, (0., 0.), **motions)
 
 
-def _move(fe, chosen, held, centre, kinds, values, turn=_NONE):
-    speeds = [value if kind == 'table' else _NONE for kind, value in zip(kinds, values)]
-    function = _velocities(kinds, values) if 'function' in kinds else None
+def _move(fe, chosen, held, centre, vx=None, vy=None, turn=_NONE):
+    speeds = [one if isinstance(one, tuple) else _NONE for one in (vx, vy)]
+    function = _velocities(vx, vy) if callable(vx) or callable(vy) else None
     fe._move(chosen, held, centre, *speeds, turn, function)
 
 
-def _velocities(kinds, values):
+def _velocities(vx, vy):
     """The function that FESolver calls in each step: (positions (k, 2), time) → (k, 2) m/s."""
-    def column(name, kind, value, places, time):
-        if kind == 'function':
-            return [number('%s(%g, %g, %g)' % (name, x, y, time), value(float(x), float(y), time),
+    def column(name, motion, places, time):
+        if callable(motion):
+            return [number('%s(%g, %g, %g)' % (name, x, y, time), motion(float(x), float(y), time),
                            math.isfinite, 'a finite number (m/s)') for x, y in places]
-        if kind == 'table':
-            return numpy.full(len(places), numpy.interp(time, *value))
-        return numpy.zeros(len(places))
+        return numpy.full(len(places), 0. if motion is None else numpy.interp(time, *motion))
 
     @calledInStep
     def velocities(places, time):
-        return numpy.column_stack([column(name, kind, value, places, time)
-                                   for name, kind, value in zip(('vx', 'vy'), kinds, values)])
+        return numpy.column_stack([column('vx', vx, places, time), column('vy', vy, places, time)])
     return velocities
 
 
@@ -171,7 +167,7 @@ def rotate(self: FESolver, nodes: int | Nodes, omega: ArrayLike, centre: ArrayLi
     requireBetweenSteps()
     chosen = self.nodesOf(nodes) if isBody(nodes) else chosenNodes(self, nodes)
     turn = tableOrNumber('omega', omega, 'rad/s')
-    _move(self, chosen, 3, pair('centre', centre), ('none', 'none'), (None, None), turn)
+    _move(self, chosen, 3, pair('centre', centre), turn=turn)
 
 
 def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: numpy.ndarray, spin: float,
@@ -205,9 +201,8 @@ def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: num
     heldPlaces = set(map(tuple, present[fixed].tolist()))
     doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in heldPlaces]
     chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
-    drifts = [tableOrNumber('velocity', float(one), 'm/s') for one in drift]
-    _move(fe, chosen, 3, tuple(map(float, centre)), ('table', 'table'), drifts,
-          tableOrNumber('spin', float(total), 'rad/s'))
+    vx, vy = (tableOrNumber('velocity', float(one), 'm/s') for one in drift)
+    _move(fe, chosen, 3, tuple(map(float, centre)), vx, vy, tableOrNumber('spin', float(total), 'rad/s'))
 
 
 def _areInLine(places):

@@ -6,10 +6,9 @@ from typing import Any
 import numpy
 
 from yadefrag import _yadefrag
-from yadefrag.arguments import number, pointsOf, positive, refuse
+from yadefrag.arguments import FESolver, Mesh, listOf, number, pointsOf, positive
+from yadefrag.fe.mesh import Meshing, Outline
 from yadefrag.fe.mesh_values import isClockwise
-from yadefrag.fe.meshing import Meshing, Outline
-from yadefrag.hints import FESolver, Mesh
 from yadefrag.messages import warnOfOne
 
 OVERLAP = .05    # of the size: overlaps up to this are removed without a request
@@ -169,9 +168,7 @@ def snapOutlines(shapes: Iterable, tolerance: float) -> tuple[list, dict[str, An
     for an outline that addPolygon would refuse, and for one that would collapse.
     """
     tolerance = positive('tolerance', tolerance, 'm')
-    if isinstance(shapes, (str, bytes, dict, set)) or not hasattr(shapes, '__iter__'):
-        refuse('shapes', shapes, 'a list of outlines, or of pairs (outline, holes)')
-    shapes = list(shapes)
+    shapes = listOf('shapes', shapes, 'a list of outlines, or of pairs (outline, holes)')
     given = [_loopsOf('shapes[%d]' % i, shape) for i, shape in enumerate(shapes)]
     made = _yadefrag.snapTogether([(loops[0], loops[1:]) for loops in given], tolerance)
     report = dict(moved=sum(one[1] for one in made), inserted=sum(one[2] for one in made),

@@ -15,24 +15,19 @@ from typing import Any
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import flag, number, positive, real, refuse
-from yadefrag.calls import inWords
+from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, flag, number, positive, real, refuse
 from yadefrag.fe import guards
-from yadefrag.fe.between_steps import betweenSteps, requireBetweenSteps
 from yadefrag.fe.bonds import bond, bondAll
-from yadefrag.fe.contents import componentOf, newName, nodesOf, shownTriangles
+from yadefrag.fe.contents import betweenSteps, componentOf, newName, nodesOf, requireBetweenSteps, shownTriangles
 from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
-from yadefrag.fe.materials import Materials, interfaces, isField, oneMaterial
-from yadefrag.fe.mesh import Mesh, asMesh
-from yadefrag.fe.mesh_values import brittlePlaces, field, heldNodes, smoothNodes, stressOfTriangles
-from yadefrag.fe.meshing import Meshing, withArguments
+from yadefrag.fe.mesh import Mesh, Meshing, asMesh, withArguments
+from yadefrag.fe.mesh_values import (Materials, brittlePlaces, field, heldNodes, interfaces, isField, oneMaterial,
+                                     smoothNodes, stressOfTriangles)
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
-from yadefrag.fe.quality import meshQuality
-from yadefrag.fe.results import contactForce, crackCounts, energy, principalStress, reaction
+from yadefrag.fe.results import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
 from yadefrag.fe.snapping import Overlap, addSnapped, snapTolerance, tellCostly, tellJoined
-from yadefrag.hints import ArrayLike, ByPlace, FEMat, FESolver
 from yadefrag.io.mesh_files import MeshFile
-from yadefrag.messages import forget, noteFixed, warnOfOne
+from yadefrag.messages import forget, inWords, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
 _ELEMENTS = ('linear', 'smoothed')

@@ -1,4 +1,4 @@
-"""A record of a run: pictures for ParaView and a table, which continue after a restart."""
+"""Files for ParaView, and a record of a run: its pictures and a table, which continue after a restart."""
 
 import math
 import os
@@ -7,16 +7,19 @@ from collections.abc import Iterable
 from typing import Any
 from xml.sax.saxutils import escape
 
-from yade import wrapper
-from yadefrag.arguments import path, shown, shownPath, whole
-from yadefrag.fe.between_steps import betweenSteps
-from yadefrag.fe.contents import shownTriangles
-from yadefrag.hints import File
-from yadefrag.io.export import exportVTK, fieldNames
-from yadefrag.io.files import appendText, requireWritable, writeText
-from yadefrag.messages import warn
-from yadefrag.scene.progress import MOST_STEPS
+import numpy
 
+from yade import wrapper
+from yadefrag.arguments import FESolver, File, path, refuse, shown, shownPath, whole
+from yadefrag.fe.contents import betweenSteps, heldCracks, requireSolver, shownMesh, shownTriangles
+from yadefrag.fe.fields import FIELDS, nameOf
+from yadefrag.files import appendText, replacing, requireWritable, writeText
+from yadefrag.messages import warn
+from yadefrag.scene.lifecycle import MOST_STEPS
+
+# Written unless others are chosen.
+_USUAL = ('displacement', 'velocity', 'contact force', 'reaction', 'stress', 'stress zz', 'strain', 'plastic strain',
+          'temperature', 'damage', 'component', 'fragment')
 _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside',
              'total', 'scene')
 _FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
@@ -25,6 +28,76 @@ _OF_YIELDING = ('plastic (J)', 'largest plastic strain', 'highest temperature (K
 _OF_FAILING = ('largest damage', 'failed triangles')
 _NAMED = 'reaction %s of %s (N)'
 _complained = set()  # files for which a message was given
+
+
+def _spatial(values):
+    """(n, 2) as (n, 3) with z = 0: ParaView then recognises vectors. Others unchanged."""
+    return numpy.column_stack([values, numpy.zeros(len(values))]) if values.ndim == 2 and values.shape[1] == 2 else \
+        values
+
+
+def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> None:
+    """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
+
+    Points are the nodes at their present positions (m); at points: displacement from the stress-free
+    shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
+    stress zz (Pa), strain (xx, yy, xy), with materials that yield plastic strain and temperature (K),
+    with materials that fail damage, component and fragment (int). Removed fragments are left out.
+    Cohesive cracks are lines along their first side, with the values of the adjacent triangle, but 'damage' is the
+    dissipated fraction of their fracture energy there (and 0 in triangles that cannot fail).
+    fields  list of the names of fields to write, as above or as in plotMesh ('plasticStrain' is 'plastic
+            strain', 'mises', 'speed' ...); None: those above
+    ValueError for another ending than .vtu, for a solver without bodies and for unknown fields.
+    """
+    import meshio
+
+    name = path('file', file, '.vtu')
+    requireSolver(fe)
+    chosen = fieldNames(fields)
+    places, blocks, points, cells = _state(fe, chosen)
+    if len(blocks[0][1]) == 0:
+        raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
+    mesh = meshio.Mesh(_spatial(places), blocks, point_data=points, cell_data=cells)
+    with replacing(name) as part:
+        mesh.write(part, file_format='vtu')
+
+
+def fieldNames(fields: Iterable[str] | None) -> tuple[str, ...]:
+    """A tuple of names from a list of names of fields, or None for those of exportVTK; ValueError for other names."""
+    if fields is None:
+        return _USUAL
+    try:
+        chosen = (fields,) if isinstance(fields, str) else tuple(fields)
+    except TypeError:
+        chosen = ('',)
+    if not all(isinstance(one, str) and nameOf(one) in FIELDS for one in chosen):
+        refuse('fields', fields, 'some of %s' % ', '.join(FIELDS))
+    return chosen
+
+
+def _state(fe, fields):
+    """(positions of nodes, blocks of cells, values at nodes, values in cells) of one step."""
+    with betweenSteps(fe):
+        nodes, triangles, corners = shownMesh(fe)
+        sides, beside, damage = heldCracks(fe)
+        blocks, of = [('triangle', corners.astype(numpy.int64))], [triangles]
+        if len(beside):
+            blocks.append(('line', numpy.searchsorted(nodes, sides[:, :2]).astype(numpy.int64)))
+            of.append(beside)
+        points, cells = {}, {}
+        for name in fields:
+            field = FIELDS[nameOf(name)]
+            if field.needs and not getattr(fe, field.needs, False):
+                continue
+            values = numpy.asarray(field.values(fe))
+            if field.ofNodes:
+                points[name] = _spatial(values[nodes])
+            else:
+                cells[name] = [values[numbers] for numbers in of]
+        if len(beside):
+            ofTriangles = cells['damage'][0] if 'damage' in cells else numpy.zeros(len(triangles))
+            cells['damage'] = [ofTriangles, damage]
+        return fe.nodes[nodes], blocks, points, cells
 
 
 def FERecorder(iterPeriod: int = 0, file: File = 'run', fields: Iterable[str] | None = None,

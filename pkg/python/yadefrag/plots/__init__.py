@@ -1,6 +1,6 @@
 """Pictures of bodies, their fragments and cracks, with Matplotlib."""
 
-from yadefrag.plots.colours import fragmentColours
+from yadefrag.plots.axes import fragmentColours
 from yadefrag.plots.fragments import plotFracture, plotFragmentSizes
 from yadefrag.plots.pictures import animate, plotMesh
 

@@ -8,13 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy
 
-from yadefrag.arguments import flag, isWhole, path, plain, refuse, shownPath
-from yadefrag.fe.between_steps import betweenSteps
-from yadefrag.fe.contents import existingBody, requireSolver
-from yadefrag.hints import FESolver, File
-from yadefrag.io.files import appendText, savePicture, writeColumns, writeText
-from yadefrag.plots.axes import newAxes, requireAxes
-from yadefrag.plots.colours import DISTINCT
+from yadefrag.arguments import FESolver, File, flag, isWhole, path, plain, refuse, shownPath
+from yadefrag.fe.contents import betweenSteps, existingBody, requireSolver
+from yadefrag.files import appendText, savePicture, writeColumns, writeText
+from yadefrag.plots.axes import DISTINCT, newAxes, requireAxes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

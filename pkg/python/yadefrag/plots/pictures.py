@@ -8,16 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy
 
-from yadefrag.arguments import flag, number, numbersOf, path, refuse, whole
-from yadefrag.fe.between_steps import betweenSteps, requireNoStep
-from yadefrag.fe.contents import requireSolver, shownMesh
-from yadefrag.fe.fields import FIELDS, nameOf
-from yadefrag.hints import ArrayLike, FESolver, File
-from yadefrag.io.files import replacing, requireWritable, savePicture
-from yadefrag.plots.axes import MOST_PANELS, barSettings, newPanels, panelSize, requireAxes
-from yadefrag.plots.colours import fragmentColours, palette
-from yadefrag.plots.fields import fieldValues
-from yadefrag.plots.overlays import CrackLines, YadeBodies, damageBar
+from yadefrag.arguments import ArrayLike, FESolver, File, flag, number, numbersOf, path, refuse, whole
+from yadefrag.fe.contents import betweenSteps, requireNoStep, requireSolver, shownMesh
+from yadefrag.fe.fields import FIELDS, fieldValues, nameOf
+from yadefrag.files import replacing, requireWritable, savePicture
+from yadefrag.plots.axes import (MOST_PANELS, CrackLines, YadeBodies, barSettings, damageBar, fragmentColours,
+                                 newPanels, palette, panelSize, requireAxes)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -103,10 +99,8 @@ def _limitsOfAll(limits, count):
 
 def _range(name, value):
     """A pair of floats; None for none."""
-    if value is None:
-        return None
-    ends = numbersOf(value, 2) if _isFinitePair(value) else None
-    if ends is None or not ends[0] < ends[1]:
+    ends = _finitePair(value)
+    if value is not None and (ends is None or not ends[0] < ends[1]):
         refuse(name, value, 'a pair of numbers (m), the lower one first')
     return ends
 
@@ -166,26 +160,27 @@ def _limits(limits):
     """A pair of floats; a pair of None for no limits."""
     if limits is None:
         return None, None
-    ends = numbersOf(limits, 2)
-    if ends is None or not _isFinitePair(limits) or ends[0] > ends[1]:
+    ends = _finitePair(limits)
+    if ends is None or ends[0] > ends[1]:
         refuse('limits', limits, 'a pair of numbers (lowest, highest)')
     return ends
 
 
-def _isFinitePair(value):
+def _finitePair(value):
+    """A pair of floats; None for other values."""
     found = numbersOf(value, 2)
-    return found is not None and all(map(math.isfinite, found))
+    return found if found is not None and all(map(math.isfinite, found)) else None
 
 
 def _corners(window):
     """((left, bottom), (right, top)) of floats."""
     try:
-        low, high = window
+        low, high = map(_finitePair, window)
     except (TypeError, ValueError):
         low = high = None
-    if not (_isFinitePair(low) and _isFinitePair(high)):
+    if low is None or high is None:
         refuse('window', window, '((left, bottom), (right, top)) in m')
-    return numbersOf(low, 2), numbersOf(high, 2)
+    return low, high
 
 
 def _draw(ax, picture, limits, others, sides):
@@ -245,12 +240,18 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
     from matplotlib.figure import Figure
 
     _requireBodies(fe)
-    _checkFilm(fe, field)
+    if field is not None and not isinstance(field, str):
+        raise ValueError('field is an array, which does not change during the run; it must be a '
+                         'name or None.')
+    start = _Picture(fe, field)
     scale = _scale(scale)
     steps, every = whole('steps', steps), whole('every', every)
     rate = number('rate', rate, lambda r: .01 <= r <= 1000, 'a number of frames per second from 0.01 to 1000')
     limits, asked = _limits(limits), (flag('spheres', spheres), flag('rigidBodies', rigidBodies))
-    low, high = _windowOf(fe) if window is None else _corners(window)
+    low, high = start.box() if window is None else _corners(window)
+    if window is None:
+        margin = (high - low).max() / 4
+        low, high = low - margin, high + margin
     name = path('file', file, '.gif')
     requireNoStep('animate')
     requireWritable(name)
@@ -280,26 +281,11 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
     return frames
 
 
-def _checkFilm(fe, field):
-    if field is not None and not isinstance(field, str):
-        raise ValueError('field is an array, which does not change during the run; it must be a '
-                         'name or None.')
-    _Picture(fe, field)
-
-
-def _windowOf(fe):
-    with betweenSteps(fe):
-        nodes = numpy.asarray(fe.nodes, dtype=float)[shownMesh(fe)[0]]
-    low, high = nodes.min(axis=0), nodes.max(axis=0)
-    margin = (high - low).max() / 4
-    return low - margin, high + margin
-
-
 def _runInParts(steps, every):
     """Runs YADE's scene in parts; yields its step number before the first part and after each."""
     from yade.wrapper import Omega
 
-    from yadefrag.scene.progress import runPart
+    from yadefrag.scene.lifecycle import runPart
 
     scene = Omega()
     yield scene.iter

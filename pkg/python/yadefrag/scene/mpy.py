@@ -1,41 +1,21 @@
 """YADE's MPI engine, yade.mpy: finds our colliders, and refuses scenes that it cannot split. Scenes that
-are split are in split_scene.py and split_cell.py.
+are split are in split_scene.py.
 
 The name of this file is that of YADE's: mpirun lets its workers run the script of the innermost frame
 that is in no file of that name.
 """
 
 import builtins
-import functools
 import importlib.abc
 import importlib.util
 import sys
 from typing import Any
 
 from yade import wrapper
-
-from yadefrag.scene import split_cell, split_scene
+from yadefrag.scene import split_scene
+from yadefrag.scene.split_scene import complete, instead, ourCollider
 
 kModule = 'yade.mpy'
-kRival = 'InsertionSortCollider'
-
-
-def colliderClasses() -> tuple[type, ...]:
-    return wrapper.LebesgueCollider, wrapper.LinearCodeCollider, wrapper.HierarchyCollider
-
-
-def ourCollider() -> Any:
-    """The first of our colliders in O.engines, or None."""
-    ours = (e for e in wrapper.Omega().engines if isinstance(e, colliderClasses()))
-    return next(ours, None)
-
-
-def _findOurs(typedEngine):
-    """mpy looks for its collider by the name of YADE's class."""
-    @functools.wraps(typedEngine)
-    def found(name):
-        return (ourCollider() if name == kRival else None) or typedEngine(name)
-    return found
 
 
 def _isPiece(body):
@@ -60,7 +40,7 @@ def _reasonOf(collider, omega):
         return ("yade.mpy finds its collider by the label 'collider', but this one has %s: write "
                 "%s([...], label='collider')."
                 % ("the label '%s'" % collider.label if collider.label else 'no label', name))
-    controller = split_cell.controller()
+    controller = split_scene.controller()
     if controller is not None:
         return ('%s would move the cell by the contacts of one process of yade.mpy only: run this scene with '
                 'O.run.' % type(controller).__name__)
@@ -99,47 +79,35 @@ def _refuseTogether(reasons):
             raise RuntimeError(reason)
 
 
-def _guardSplit(mpy, splitScene):
+@instead
+def _splitScene(mpy, yades):
     """All processes split together: all refuse, or none."""
-    @functools.wraps(splitScene)
-    def split():
-        omega: Any = getattr(builtins, 'O')  # splittedOnce is an attribute of this object, not of the class
-        if omega.splittedOnce:
-            split_scene.checkMerged(mpy)
-            splitScene()
-            mpy.checkAndCollide()
-            return
-        reports = mpy.comm.allgather((reasonNotToSplit() or _reasonOfClumps(mpy), _smallestRadius()))
-        _refuseTogether(reason for reason, _ in reports)
-        _shareVerletDist(reports)
-        if mpy.DOMAIN_DECOMPOSITION and mpy.rank == 0:
-            split_scene.keepClumpsWhole()
-        splitScene()
-        if ourCollider() is not None:
-            split_scene.searchBeforeTheCollider(mpy, ourCollider())
-    return split
+    omega: Any = getattr(builtins, 'O')  # splittedOnce is an attribute of this object, not of the class
+    if omega.splittedOnce:
+        split_scene.checkMerged(mpy)
+        yades()
+        mpy.checkAndCollide()
+        return
+    reports = mpy.comm.allgather((reasonNotToSplit() or _reasonOfClumps(mpy), _smallestRadius()))
+    _refuseTogether(reason for reason, _ in reports)
+    _shareVerletDist(reports)
+    if mpy.DOMAIN_DECOMPOSITION and mpy.rank == 0:
+        split_scene.keepClumpsWhole()
+    yades()
+    if ourCollider() is not None:
+        split_scene.searchBeforeTheCollider(mpy, ourCollider())
 
 
-def _guardRun(mpy, mpirun):
+@instead
+def _mpirun(mpy, yades, nSteps, np=None, withMerge=False):
     """Refuses before mpirun starts processes, or sends them a command to run."""
-    @functools.wraps(mpirun)
-    def run(nSteps, np=None, withMerge=False):
-        wanted = mpy.numThreads if np is None else np
-        isAlone = mpy.comm is None or mpy.numThreads == 1 or mpy.waitingCommands
-        if mpy.rank == 0 and isAlone and wanted != 1:
-            _refuseTogether([reasonNotToSplit() or _reasonOfClumps(mpy)])
-        if getattr(builtins, 'O').splitted and wanted == mpy.numThreads != 1:
-            split_scene.searchTogether(mpy)
-        return mpirun(nSteps, np, withMerge)
-    return run
-
-
-def _adapt(mpy):
-    split_cell.complete(mpy, ourCollider)
-    split_scene.complete(mpy)  # its merge sends the master's command before the cells are compared
-    mpy.typedEngine = _findOurs(mpy.typedEngine)
-    mpy.splitScene = _guardSplit(mpy, mpy.splitScene)
-    mpy.mpirun = _guardRun(mpy, mpy.mpirun)
+    wanted = mpy.numThreads if np is None else np
+    isAlone = mpy.comm is None or mpy.numThreads == 1 or mpy.waitingCommands
+    if mpy.rank == 0 and isAlone and wanted != 1:
+        _refuseTogether([reasonNotToSplit() or _reasonOfClumps(mpy)])
+    if getattr(builtins, 'O').splitted and wanted == mpy.numThreads != 1:
+        split_scene.searchTogether(mpy)
+    return yades(nSteps, np, withMerge)
 
 
 class _WhenImported(importlib.abc.MetaPathFinder):
@@ -156,13 +124,13 @@ class _WhenImported(importlib.abc.MetaPathFinder):
 
             def executeAndAdapt(module):
                 execute(module)
-                _adapt(module)
+                complete(module)
             loader.exec_module = executeAndAdapt
         return spec
 
 
 def install() -> None:
     if kModule in sys.modules:
-        _adapt(sys.modules[kModule])
+        complete(sys.modules[kModule])
     else:
         sys.meta_path.insert(0, _WhenImported())

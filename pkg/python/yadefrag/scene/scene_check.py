@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from yade import wrapper
-from yadefrag.hints import FESolver
+from yadefrag.arguments import FESolver
 from yadefrag.messages import warn
 
 # These engines apply no forces to bodies, or apply them anew in each step.

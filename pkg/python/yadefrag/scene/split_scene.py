@@ -1,17 +1,35 @@
-"""A scene that yade.mpy has split: clumps, and bodies that scripts insert or erase while it runs.
+"""A scene that yade.mpy has split: clumps, bodies that scripts insert or erase while it runs, periodic cells.
 
 All functions take YADE's module, whose functions they complete.
+
+In a periodic scene YADE's box around the bodies of a process is wrong as soon as one is outside of the cell's first
+period, and its collider accepts no box of more than half the cell. Each process therefore gets a copy of every body of
+the others. The cell is not sent after the split: all processes must change it in the same way.
 """
 
 import builtins
 import contextlib
 import functools
+from collections.abc import Callable
 from typing import Any
 
 from yade import wrapper
 
 kInEachProcess = "O.splitted and sys.modules['yade.mpy'].checkAndCollide()"
 _known: set[int] = set()  # bodies of this process at the last search
+_completed = {}  # {name of a function of YADE's module: ours, of the module and that function before its arguments}
+
+
+def instead(function: Callable) -> Callable:
+    """Decorator: the function, without the _ of its name, takes the place of YADE's."""
+    _completed[function.__name__[1:]] = function
+    return function
+
+
+def ourCollider() -> Any:
+    """The first of our colliders in O.engines, or None."""
+    ours = wrapper.LebesgueCollider, wrapper.LinearCodeCollider, wrapper.HierarchyCollider
+    return next((e for e in wrapper.Omega().engines if isinstance(e, ours)), None)
 
 
 def _omega() -> Any:
@@ -112,39 +130,33 @@ def _releaseCopies():
                 body.updateAttrs({'clumpId': -1})
 
 
-def _search(mpy, parallelCollide):
-    @functools.wraps(parallelCollide)
-    def search():
-        if not _omega().splitted:
-            _known.clear()
-        _takeInserted(mpy)
-        parallelCollide()
-        _releaseCopies()
-    return search
+@instead
+def _parallelCollide(mpy, yades):
+    if not _omega().splitted:
+        _known.clear()
+    _takeInserted(mpy)
+    yades()
+    _releaseCopies()
 
 
-def _erase(mpy, bodyErase):
-    @functools.wraps(bodyErase)
-    def erase(ids):
-        if not mpy.numThreads or mpy.numThreads == 1:
-            return bodyErase(ids)
-        _enlarge(1 + (max(ids, default=-1) if isinstance(ids, list) else ids))
-        _listOwn(mpy)
-        erased = bodyErase(ids)
-        _listOwn(mpy)  # a clump is erased with its last member
-        return erased
-    return erase
+@instead
+def _bodyErase(mpy, yades, ids):
+    if not mpy.numThreads or mpy.numThreads == 1:
+        return yades(ids)
+    _enlarge(1 + (max(ids, default=-1) if isinstance(ids, list) else ids))
+    _listOwn(mpy)
+    erased = yades(ids)
+    _listOwn(mpy)  # a clump is erased with its last member
+    return erased
 
 
-def _migrate(mpy, migrateBodies):
+@instead
+def _migrateBodies(mpy, yades, ids, origin, destination):
     """Clumps remain in their process: the filter chooses single members."""
-    @functools.wraps(migrateBodies)
-    def migrate(ids, origin, destination):
-        if mpy.rank == origin:
-            bodies = wrapper.Omega().bodies
-            ids = [id for id in ids if bodies[id].isStandalone]
-        migrateBodies(ids, origin, destination)
-    return migrate
+    if mpy.rank == origin:
+        bodies = wrapper.Omega().bodies
+        ids = [id for id in ids if bodies[id].isStandalone]
+    yades(ids, origin, destination)
 
 
 @contextlib.contextmanager
@@ -162,16 +174,16 @@ def _clumpsWithMaterial(mpy):
             bodies[id].material = None
 
 
-def _merge(mpy, mergeScene):
-    @functools.wraps(mergeScene)
-    def merge():
-        if mpy.rank == 0 and mpy.waitingCommands:
-            mpy.sendCommand('slaves', 'mergeScene()', False)
-        if _omega().splitted:
-            _takeInserted(mpy)
-            with _clumpsWithMaterial(mpy), _withoutCommands(mpy):
-                mergeScene()
-    return merge
+@instead
+def _mergeScene(mpy, yades):
+    if mpy.rank == 0 and mpy.waitingCommands:
+        mpy.sendCommand('slaves', 'mergeScene()', False)
+    if _omega().splitted:
+        _takeInserted(mpy)
+        with _clumpsWithMaterial(mpy), _withoutCommands(mpy):
+            if _isPeriodic():
+                _checkCell(mpy)
+            yades()
 
 
 @contextlib.contextmanager
@@ -182,6 +194,47 @@ def _withoutCommands(mpy):
         yield
     finally:
         mpy.waitingCommands = waiting
+
+
+def _isPeriodic():
+    return wrapper.Omega().periodic and ourCollider() is not None
+
+
+def controller() -> Any:
+    """An engine that moves the cell by the contacts of this process, or None."""
+    omega = wrapper.Omega()
+    return next((e for e in omega.engines if omega.periodic and isinstance(e, wrapper.BoundaryController)
+                 and not e.dead), None)
+
+
+def _checkCell(mpy):
+    """All processes call this together."""
+    cells = mpy.comm.allgather([list(row) for row in wrapper.Omega().cell.hSize])
+    if any(cell != cells[0] for cell in cells):
+        raise RuntimeError('The periodic cell is not the same in all processes of yade.mpy: change it in '
+                           'all of them, and not by what one of them knows, such as its contacts.')
+
+
+@instead
+def _updateDomainBounds(mpy, yades, subdomains):
+    """Our colliders ignore a process whose box is empty."""
+    yades(subdomains)
+    if _isPeriodic():
+        _checkCell(mpy)
+        for shape in (wrapper.Omega().bodies[id].shape for id in subdomains):
+            shape.boundsMin, shape.boundsMax = 3 * [float('inf')], 3 * [-float('inf')]
+
+
+@instead
+def _genLocalIntersections(mpy, yades, subdomains):
+    """Ids of bodies whose states are sent, by process; in place of this one: the processes to which."""
+    if not _isPeriodic():
+        return yades(subdomains)
+    own = [b.id for b in wrapper.Omega().bodies if b.bounded and b.subdomain == mpy.rank and not b.isSubdomain]
+    others = [rank for rank in range(1, mpy.numThreads) if rank != mpy.rank]
+    lists = [own if rank in others else [] for rank in range(mpy.numThreads)]
+    lists[mpy.rank] = others if own or mpy.rank > 0 else []
+    return lists
 
 
 def searchTogether(mpy: Any) -> None:
@@ -223,7 +276,6 @@ def checkMerged(mpy: Any) -> None:
 
 
 def complete(mpy: Any) -> None:
-    mpy.parallelCollide = _search(mpy, mpy.parallelCollide)
-    mpy.bodyErase = _erase(mpy, mpy.bodyErase)
-    mpy.migrateBodies = _migrate(mpy, mpy.migrateBodies)
-    mpy.mergeScene = _merge(mpy, mpy.mergeScene)
+    for name, function in _completed.items():
+        yades = getattr(mpy, name)
+        setattr(mpy, name, functools.wraps(yades)(functools.partial(function, mpy, yades)))

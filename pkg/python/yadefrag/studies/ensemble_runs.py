@@ -1,21 +1,17 @@
 """Many runs of one scene, by seeds or by a table, and statistics of a measured value."""
 
-import math
 import os
-import sys
 from collections.abc import Callable
 from typing import Any
 
 import numpy
 
-from yadefrag.arguments import isWhole, number, plain, positive, refuse, shown, text, whole
-from yadefrag.hints import File
-from yadefrag.io.files import requireWritable
+from yadefrag.arguments import File, isWhole, plain, refuse, shown, text, whole
+from yadefrag.messages import passOn
 from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
-from yadefrag.studies.grouping import passOn
-from yadefrag.studies.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
+from yadefrag.studies.runs import Finished, counted, jobOf, requireExecutor, runAll
 from yadefrag.studies.scene_choices import Choices
-from yadefrag.studies.tradeoff_grid import MOST_SECONDS, checkChoice, writeTable
+from yadefrag.studies.tradeoff_grid import checkChoice, requireFiles, writeTable
 
 _MOST_RUNS = 10**6
 
@@ -55,24 +51,15 @@ def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., 
     ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
     RuntimeError if the file cannot be loaded again.
     """
-    requireOutside('ensemble')
+    job = dict(jobOf('ensemble', scene, measure, watch, duration, every, limit), isSeveral=True)
     settings = _settings(runs)
-    job = jobOf(scene, measure, watch)
-    job.update(isSeveral=True, duration=positive('duration', duration, 's'),
-               every=number('every', every, lambda v: 0 <= v < math.inf,
-                            'a positive number (s), or 0'),
-               limit=min(positive('limit', limit, 's'), MOST_SECONDS))
     executor = requireExecutor(executor)
     workers = whole('workers', os.cpu_count() if workers is None else workers)
     table = EnsembleTable([EnsembleRow(dict(setting)) for setting in settings], text('title', title))
-    if files is not None:
-        for name in EnsembleTable.namesOfFiles(files):
-            requireWritable(name)
-    finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
-    _run(table.rows, job, finished, executor, workers)
+    requireFiles(table, files)
+    _run(table.rows, job, Finished(resume, job), executor, workers)
     passOn('ensemble', table.rows)
-    if files is not None:
-        writeTable(table, files)
+    writeTable(table, files)
     return table
 
 
@@ -109,30 +96,9 @@ def _listOf(values):
 
 def _run(rows, job, finished, executor, workers):
     """Runs all rows and stores their results."""
-    import tqdm  # only if something runs
-    due = []
-    for place, row in enumerate(rows):
-        key = _keyOf(rows, place)
-        known = finished.get(key)
-        if known is None:
-            due.append((row, key))
-        else:
-            row.take(known)
-    bar = tqdm.tqdm(total=len(rows), initial=len(rows) - len(due), unit='run', disable=None)
-
-    def take(place, found):
-        row, key = due[place]
-        row.take(found)
-        finished.add(key, found)
-        bar.update()
-
-    jobs = [dict(job, settings=row.settings) for row, _ in due]
-    try:
-        with bar:
-            runAll(jobs, take, executor, workers)
-    except KeyboardInterrupt:
-        done = sum(row.result != 'not run' for row in rows)
-        print('Stopped after %d of %d runs.' % (done, len(rows)), file=sys.stderr)
+    with counted(len(rows), lambda: sum(row.result != 'not run' for row in rows)) as bar:
+        keys = [_keyOf(rows, place) for place in range(len(rows))]
+        runAll(list(zip(rows, keys)), job, finished, bar, executor, workers)
 
 
 def _keyOf(rows, place):

@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy
 
-from yadefrag.arguments import array, number, path, refuse, text
-from yadefrag.hints import ArrayLike, File
-from yadefrag.io.files import savePicture
-from yadefrag.libraries import needed
-from yadefrag.plots.colours import DISTINCT
-from yadefrag.studies.grouping import grouped, samples, varying
-from yadefrag.studies.tradeoff_table import describe, writeRows
+from yadefrag.arguments import ArrayLike, File, array, number, path, refuse, text
+from yadefrag.files import savePicture
+from yadefrag.messages import needed
+from yadefrag.plots.axes import DISTINCT
+from yadefrag.studies.tradeoff_table import describe, grouped, samples, varying, writeRows
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,10 +48,7 @@ class EnsembleRow:
 
     def take(self, found: dict[str, Any]) -> None:
         """Stores the result of a run."""
-        if found['result'] == 'unloadable':
-            raise RuntimeError('a run cannot load the scene: %s' % found['message'])
-        self.result = 'failed' if found['result'] == 'lost' else found['result']
-        self.message = found['message']
+        self.result, self.message = found['result'], found['message']
         self.value, self.steps, self.wall, self.seconds = map(found.get, ('value', 'steps', 'wall', 'seconds'))
         self.warnings = list(found.get('warnings', ()))
 

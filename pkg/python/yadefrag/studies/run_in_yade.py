@@ -30,6 +30,7 @@ MOST_RADII = 10  # largest displacement of a sphere in one step
 class BlewUp(Exception):
     """The run's results are not finite or not physical."""
 
+
 def load(job: dict[str, Any]) -> list[Any]:
     """[function] of the job, with sys.path and sys.argv as for the script itself."""
     sys.path[:0] = [p for p in job['path'] if p not in sys.path]
@@ -42,20 +43,6 @@ def load(job: dict[str, Any]) -> list[Any]:
     else:
         names = vars(importlib.import_module(job['module']))
     return [names[name] if name else None for name in job['functions']]
-
-
-class Clock:
-    """Wall-clock and processor time (s) of the steps only."""
-
-    def __init__(self) -> None:
-        self.wall = self.cpu = 0.
-
-    def __enter__(self) -> None:
-        self._start = time.perf_counter(), time.process_time()
-
-    def __exit__(self, *_: object) -> None:
-        self.wall += time.perf_counter() - self._start[0]
-        self.cpu += time.process_time() - self._start[1]
 
 
 class Sanity:
@@ -87,28 +74,30 @@ class Sanity:
 
 
 def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every: float,
-        built: Any) -> tuple[Clock, int, float, list]:
-    """Runs `duration` (s simulated); returns (clock, steps, simulated s, list of watch's results)."""
+        built: Any) -> tuple[dict[str, float], list]:
+    """Runs `duration` (s simulated); returns (the run's figures, with times of the steps only; watch's results)."""
     if not (math.isfinite(omega.dt) and omega.dt > 0):
         raise ValueError('O.dt is %r s, the scene must set a positive one.' % omega.dt)
     if duration <= omega.dt / 2:
         raise ValueError('duration is %.6g s, at most half of the scene\'s step of %.6g s: no step '
                          'would be done.' % (duration, omega.dt))
-    clock, sanity, seen = Clock(), Sanity(omega), []
-    begin, first, checked = omega.time, omega.iter, 0.
+    sanity, seen = Sanity(omega), []
+    begin, first, wall, cpu, checked = omega.time, omega.iter, 0., 0., 0.
     end = begin + duration - omega.dt / 2
     moment = begin + every if watch else end  # next call of watch
     while omega.time < end:
-        with clock:
-            advance(omega, min(moment, end))
-        if clock.wall - checked > CHECK_EVERY:
+        start = time.perf_counter(), time.process_time()
+        advance(omega, min(moment, end))
+        wall, cpu = wall + time.perf_counter() - start[0], cpu + time.process_time() - start[1]
+        if wall - checked > CHECK_EVERY:
             sanity.check()
-            checked = clock.wall
+            checked = wall
         if watch and omega.time >= min(moment, end):
             seen.append(watch(built))
             moment += every
     sanity.check()
-    return clock, omega.iter - first, omega.time - begin, seen
+    simulated = omega.time - begin
+    return dict(wall=wall / simulated, cpu=cpu / simulated, seconds=wall, steps=omega.iter - first), seen
 
 
 def advance(omega: Omega, until: float) -> None:
@@ -168,7 +157,7 @@ def attempt(job: dict[str, Any], choices: Choices) -> dict[str, Any]:
         for name in choices.neverAsked():
             raise ValueError('the scene never used the choice %s.' % arguments.shown(name))
         stage = 'blew up'
-        clock, steps, simulated, seen = run(Omega(), job['duration'], watch, job['every'], built)
+        figures, seen = run(Omega(), job['duration'], watch, job['every'], built)
         stage = 'failed'
         value = measured(measure, watch, built, seen, job.get('isSeveral', False))
     except BlewUp as error:
@@ -179,8 +168,7 @@ def attempt(job: dict[str, Any], choices: Choices) -> dict[str, Any]:
         return dict(result=stage, message=str(error))
     except Exception as error:  # a bug in the scene: the other runs continue
         return dict(result='failed', message='%s: %s' % (type(error).__name__, error))
-    return dict(result='ok', message='', wall=clock.wall / simulated, cpu=clock.cpu / simulated,
-                seconds=clock.wall, steps=steps, value=value)
+    return dict(figures, result='ok', message='', value=value)
 
 
 def main(jobFile: str, resultFile: str) -> None:

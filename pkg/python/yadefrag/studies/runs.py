@@ -1,36 +1,38 @@
 """Many runs of a scene, each in a separate yade, on this machine or by an executor."""
 
+from __future__ import annotations
+
 import concurrent.futures
 import contextlib
 import inspect
 import json
+import math
 import os
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
-from yadefrag.arguments import path, refuse, shown, shownPath
-from yadefrag.hints import File
-from yadefrag.io.files import appendText, requireWritable, writeText
+from yadefrag.arguments import File, number, path, positive, refuse, shown, shownPath
+from yadefrag.files import appendText, requireWritable, writeText
 from yadefrag.studies import run_process
+from yadefrag.studies.tradeoff_table import describe
 
 INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
 _HERE = os.path.dirname(os.path.realpath(run_process.__file__))
+_MOST_SECONDS = 1e9  # longest time limit of a process
 _POLL = .02  # s between two checks of an executor's runs
 # Workers are plain Python, which cannot import this package without YADE.
 _BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
 
 
-def requireOutside(name: str) -> None:
-    """RuntimeError in a run that loads the script again."""
+def jobOf(name: str, scene: Callable, measure: Callable, watch: Callable | None, duration: float, every: float,
+          limit: float) -> dict[str, Any]:
+    """The job of every run: functions and their file, times. ValueError for functions without a file; RuntimeError in a
+    run that loads the script, which calls the function `name`, again."""
     if os.environ.get(INSIDE):
         raise RuntimeError('%s is called while one of its runs loads the script; put the call '
                            "after `if __name__ == '__main__':`." % name)
-
-
-def jobOf(scene: Callable, measure: Callable, watch: Callable | None) -> dict[str, Any]:
-    """The job of every run: functions and their file. ValueError for functions without a file."""
     functions: list[Any] = [scene, measure] + [watch] * (watch is not None)
     for name, function in zip(('scene', 'measure', 'watch'), functions):
         module = sys.modules.get(getattr(function, '__module__', ''))
@@ -51,7 +53,9 @@ def jobOf(scene: Callable, measure: Callable, watch: Callable | None) -> dict[st
     return dict(file=file, module=modules.pop(), functions=names + [None] * (3 - len(names)),
                 path=[os.path.abspath(p) for p in sys.path], inside=INSIDE, package=package,
                 yade=getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0],
-                program=os.path.join(_HERE, 'run_in_yade.py'))
+                program=os.path.join(_HERE, 'run_in_yade.py'), duration=positive('duration', duration, 's'),
+                every=number('every', every, lambda v: 0 <= v < math.inf, 'a positive number (s), or 0'),
+                limit=min(positive('limit', limit, 's'), _MOST_SECONDS))
 
 
 def requireExecutor(executor: Any) -> Any:
@@ -61,14 +65,46 @@ def requireExecutor(executor: Any) -> Any:
     return executor
 
 
-def runAll(jobs: list[dict[str, Any]], take: Callable[[int, dict[str, Any]], None], executor: Any = None,
-           workers: int = 1) -> None:
-    """Does the runs of `jobs`, and calls take(number in jobs, result) at the end of each.
+@contextlib.contextmanager
+def counted(total: int, done: Callable[[], int]) -> Iterator[Any]:
+    """The block has a progress bar for `total` runs. Ctrl-C ends it, with a line about the number of runs that are
+    `done`."""
+    import tqdm  # only if something runs
+    try:
+        with tqdm.tqdm(total=total, unit='run', disable=None) as bar:
+            yield bar
+    except KeyboardInterrupt:
+        print('Stopped after %d of %d runs.' % (done(), total), file=sys.stderr)
+
+
+def runAll(rows: list[tuple[Any, dict[str, Any]]], job: dict[str, Any], finished: Finished, bar: Any,
+           executor: Any = None, workers: int = 1) -> None:
+    """Gives the row of each pair (row, key in `finished`, with its `setting`) the result of its run; does the runs that
+    are not finished.
 
     executor  None: on this machine, `workers` at a time; or one with `submit`, whose futures have
-              `done`, `result` and `cancel`. For a lost worker the result is 'lost', with the reason.
+              `done`, `result` and `cancel`. A lost worker's run has failed, with the reason.
               KeyboardInterrupt cancels the runs that have not begun, and ends those on this machine
     """
+    due = []
+    for row, key in rows:
+        known = finished.get(key)
+        if known is None:
+            due.append((row, key))
+        else:
+            row.take(known)
+            bar.update()
+
+    def take(place, found):
+        row, key = due[place]
+        if found['result'] == 'unloadable':
+            raise RuntimeError('a run cannot load the scene: %s' % found['message'])
+        row.take(found)
+        finished.add(key, found)
+        bar.update()
+
+    bar.set_postfix_str(describe(due[0][1]['setting']) if len(due) == 1 else '', refresh=False)
+    jobs = [dict(job, settings=key['setting']) for _, key in due]
     if executor is not None:
         program = os.path.join(_HERE, 'run_process.py')
         _take([executor.submit(eval, _BY_PATH, dict(program=program, job=job)) for job in jobs], take)
@@ -87,9 +123,9 @@ def _take(futures, take):
     waiting = dict(enumerate(futures))
     try:
         while waiting:
-            ended = [number for number, future in waiting.items() if future.done()]
-            for number in ended:
-                take(number, _resultOf(waiting.pop(number)))
+            ended = [place for place, future in waiting.items() if future.done()]
+            for place in ended:
+                take(place, _resultOf(waiting.pop(place)))
             if not ended:
                 time.sleep(_POLL)
     finally:
@@ -101,17 +137,17 @@ def _resultOf(future):
     try:
         return future.result()
     except Exception as error:  # of the executor, or of a lost worker
-        return dict(result='lost', message='%s: %s' % (type(error).__name__,
-                                                       ' '.join(str(error).split())[:200]))
+        return dict(result='failed', isLost=True, message='%s: %s' % (
+            type(error).__name__, ' '.join(str(error).split())[:200]))
 
 
 class Finished:
     """Results of runs in a file, one line of JSON each: a later call need not repeat these runs."""
 
-    def __init__(self, file: File | None, of: dict[str, Any]) -> None:
-        """file: a path that ends with .jsonl, or None; of: identification of the runs, a dict."""
+    def __init__(self, file: File | None, job: dict[str, Any]) -> None:
+        """file: a path that ends with .jsonl, or None; job: that of the runs, which identifies them."""
         self.name = '' if file is None else path('resume', file, '.jsonl')  # '': none
-        self._known, of = {}, json.loads(json.dumps(of))
+        self._known, of = {}, {key: job[key] for key in ('file', 'functions', 'duration', 'every')}
         if not self.name:
             return
         requireWritable(self.name)
@@ -144,7 +180,7 @@ class Finished:
         return self._known.get(_key(of))
 
     def add(self, of: dict[str, Any], result: dict[str, Any]) -> None:
-        if self.name and result['result'] not in ('lost', 'unloadable'):
+        if self.name and not result.get('isLost'):
             appendText(self.name, json.dumps(dict(of=of, result=result)) + '\n')
 
 

@@ -10,8 +10,8 @@ from typing import Any
 
 from yade import wrapper
 from yadefrag import arguments
+from yadefrag.arguments import FEMat, FESolver
 from yadefrag.fe.contents import requireSolver
-from yadefrag.hints import FEMat, FESolver
 
 COLLIDERS = ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider', 'InsertionSortCollider')
 LINEAR_VISCOSITY, QUADRATIC_VISCOSITY = .06, 1.2  # usual coefficients of bulk viscosity

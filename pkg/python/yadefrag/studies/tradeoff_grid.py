@@ -10,24 +10,19 @@ import itertools
 import json
 import math
 import os
-import statistics
-import sys
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy
 
-from yadefrag.arguments import number, path, plain, positive, refuse, shown, shownPath, text, whole
-from yadefrag.hints import ArrayLike, File
-from yadefrag.io.files import requireWritable
-from yadefrag.messages import warn
+from yadefrag.arguments import ArrayLike, File, path, plain, refuse, shown, shownPath, text, whole
+from yadefrag.files import requireWritable
+from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
-from yadefrag.studies.grouping import SEED, passOn
-from yadefrag.studies.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
-from yadefrag.studies.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe, namesOfCases
+from yadefrag.studies.runs import Finished, counted, jobOf, requireExecutor, runAll
+from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases
 
-MOST_SECONDS = 1e9  # longest time limit of a process
 _REPEATABLE = ('not run', 'ok')
 
 
@@ -78,37 +73,33 @@ def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | 
     runs, for bad arguments, OSError for files that cannot be written; RuntimeError if the file
     cannot be loaded again.
     """
-    requireOutside('tradeoff')
-    settings = _grid(vary)
-    job = jobOf(scene, measure, watch)
-    job.update(duration=positive('duration', duration, 's'),
-               every=number('every', every, lambda v: 0 <= v < math.inf,
-                            'a positive number (s), or 0'))
-    repeats = whole('repeats', repeats)
-    job['limit'] = min(positive('limit', limit, 's'), MOST_SECONDS)
+    job = jobOf('tradeoff', scene, measure, watch, duration, every, limit)
+    settings, repeats = _grid(vary), whole('repeats', repeats)
     executor = requireExecutor(executor)
     title, by = text('title', title), namesOfCases(by)
     right = _reference(reference)
     if isinstance(right, dict):
         settings = _withReferences(settings, right, by)
-    if files is not None:
-        for name in TradeoffTable.namesOfFiles(files):
-            requireWritable(name)
-    rows = [TradeoffRow(settings=dict(setting)) for setting in settings]
-    finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
-    _runAll(rows, settings, job, repeats, executor, finished)
-    table = TradeoffTable(rows, title, by)
+    table = TradeoffTable([TradeoffRow(settings=dict(setting)) for setting in settings], title, by)
+    requireFiles(table, files)
+    _runAll(table.rows, settings, job, repeats, executor, Finished(resume, job))
     _setErrors(table, right, settings)
-    passOn('tradeoff', rows)
-    if files is not None:
-        writeTable(table, files)
+    passOn('tradeoff', table.rows)
+    writeTable(table, files)
     return table
 
 
-def writeTable(table: Any, files: File) -> None:
+def requireFiles(table: Any, files: File | None) -> None:
+    """OSError for a file that the table could not write after the runs."""
+    for name in () if files is None else table.namesOfFiles(files):
+        requireWritable(name)
+
+
+def writeTable(table: Any, files: File | None) -> None:
     """A full disk must not cost the results of the runs: the table is returned in any case."""
     try:
-        table.write(files)
+        if files is not None:
+            table.write(files)
     except OSError as error:
         warn('the table could not be written: %s.' % error)
 
@@ -192,57 +183,12 @@ def _reference(reference):
 
 def _runAll(rows, settings, job, repeats, executor, finished):
     """Runs all rows. The settings alternate, so that a slow minute of the machine affects all of them."""
-    import tqdm  # only if something runs
-    bar = tqdm.tqdm(total=repeats * len(rows), unit='run', disable=None)
-    try:
-        with bar:
-            for turn in range(repeats):
-                _runTurn(turn, rows, settings, job, executor, finished, bar)
-    except KeyboardInterrupt:
-        done = sum(len(row.walls) for row in rows)
-        print('Stopped after %d of %d runs.' % (done, repeats * len(rows)), file=sys.stderr)
-
-
-def _runTurn(turn, rows, settings, job, executor, finished, bar):
-    """One run of each setting that has not failed."""
-    due = []
-    for row, setting in zip(rows, settings):
-        known = finished.get(dict(setting=setting, turn=turn))
-        if row.result in _REPEATABLE and known is None:
-            due.append((row, setting))
-            continue
-        if row.result in _REPEATABLE:
-            _take(row, known)
-        bar.update()
-
-    def take(number, found):
-        row, setting = due[number]
-        _take(row, found)
-        finished.add(dict(setting=setting, turn=turn), found)
-        bar.update()
-
-    bar.set_postfix_str(describe(due[0][1]) if len(due) == 1 else '', refresh=False)
-    runAll([dict(job, settings=setting) for _, setting in due], take, executor)
-
-
-def _take(row, found):
-    """Stores the result of one run in its row."""
-    if found['result'] == 'unloadable':
-        raise RuntimeError('a run cannot load the scene: %s' % found['message'])
-    lost = found['result'] == 'lost'  # by the executor, not by the scene
-    row.result, row.message = 'failed' if lost else found['result'], found['message']
-    row.warnings += [one for one in found.get('warnings', ()) if one not in row.warnings]
-    for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
-        if value is not None:
-            row.settings.setdefault(name, value)
-    if row.result != 'ok':
-        row.walls, row.cpus, row.wall, row.cpu, row.value, row.seconds = [], [], None, None, None, None
-        return
-    row.walls.append(found['wall'])
-    row.cpus.append(found['cpu'])
-    row.wall, row.cpu = statistics.median(row.walls), statistics.median(row.cpus)
-    row.steps, row.value = found['steps'], found['value']
-    row.seconds = found['seconds'] * row.wall / found['wall']
+    with counted(repeats * len(rows), lambda: sum(len(row.walls) for row in rows)) as bar:
+        for turn in range(repeats):
+            due = [(row, dict(setting=setting, turn=turn)) for row, setting in zip(rows, settings)
+                   if row.result in _REPEATABLE]
+            bar.update(len(rows) - len(due))
+            runAll(due, job, finished, bar, executor)
 
 
 def _setErrors(table, right, settings):

@@ -9,9 +9,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, NullFormatter
 from matplotlib.transforms import Bbox
 
-from yadefrag.hints import File
+from yadefrag.arguments import File
 
-from yadefrag.io.files import savePicture
+from yadefrag.files import savePicture
 from yadefrag.plots.axes import newAxes, requireAxes
 
 if TYPE_CHECKING:

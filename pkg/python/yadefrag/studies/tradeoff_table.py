@@ -1,4 +1,4 @@
-"""The table that tradeoff() returns: rows, Pareto front, CSV, Markdown, plot."""
+"""The table that tradeoff() returns: rows, Pareto front, CSV, Markdown, plot; runs by what varies between them."""
 
 from __future__ import annotations
 
@@ -8,12 +8,10 @@ import io
 import json
 import statistics
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from yadefrag.arguments import path, real, refuse, shownPath, text
-from yadefrag.hints import File
-from yadefrag.io.files import writeText
-from yadefrag.studies.grouping import SEED, grouped
+from yadefrag.arguments import File, listOf, path, real, refuse, shownPath, text
+from yadefrag.files import writeText
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +19,8 @@ if TYPE_CHECKING:
 COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message', 'seconds', 'warnings')
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
           'cpu': 'processor time over simulated time (s/s)'}
+Row = TypeVar('Row', bound=Any)
+SEED = 'seed'  # runs that differ in it only are repetitions
 
 
 @dataclasses.dataclass
@@ -52,6 +52,22 @@ class TradeoffRow:
     seconds: float | None = None
     warnings: list = dataclasses.field(default_factory=list)
 
+    def take(self, found: dict[str, Any]) -> None:
+        """Stores the result of one run."""
+        self.result, self.message = found['result'], found['message']
+        self.warnings += [one for one in found.get('warnings', ()) if one not in self.warnings]
+        for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
+            if value is not None:
+                self.settings.setdefault(name, value)
+        if self.result != 'ok':
+            self.walls, self.cpus, self.wall, self.cpu, self.value, self.seconds = [], [], None, None, None, None
+            return
+        self.walls.append(found['wall'])
+        self.cpus.append(found['cpu'])
+        self.wall, self.cpu = statistics.median(self.walls), statistics.median(self.cpus)
+        self.steps, self.value = found['steps'], found['value']
+        self.seconds = found['seconds'] * self.wall / found['wall']
+
 
 def describe(settings: dict[str, Any]) -> str:
     """'passes=2, size=0.001'; 'as the scene is' for no choices."""
@@ -70,10 +86,7 @@ class TradeoffTable:
     """
 
     def __init__(self, rows: Iterable[TradeoffRow], title: str = '', by: str | Sequence[str] = ()) -> None:
-        try:
-            self.rows = list(rows)
-        except TypeError:
-            refuse('rows', rows, 'a list of TradeoffRow')
+        self.rows = listOf('rows', rows, 'a list of TradeoffRow')
         for i, row in enumerate(self.rows):
             _requireRow(row, 'rows[%d]' % i)
         self.title, self.by, self.references = text('title', title), namesOfCases(by), []
@@ -318,3 +331,37 @@ def _decode(cell):
         return json.loads(cell)
     except (ValueError, RecursionError):
         return cell
+
+
+def varying(rows: Sequence[Any]) -> list[str]:
+    """Names of the settings that vary and are neither a seed nor a sample, in their order.
+
+    A sample is a number that is another one in each of several runs, as drawn from a distribution.
+    """
+    names = dict.fromkeys(name for row in rows for name in row.settings)
+    return [name for name in names if name != SEED and len(_values(rows, name)) > 1 and not _isSample(rows, name)]
+
+
+def samples(rows: Sequence[Any]) -> list[str]:
+    """Names of the settings that are another number in each run, without the seed."""
+    return [name for name in dict.fromkeys(n for row in rows for n in row.settings)
+            if name != SEED and _isSample(rows, name)]
+
+
+def grouped(rows: Sequence[Row], names: Iterable[str]) -> list[tuple[dict[str, Any], list[Row]]]:
+    """[(dict of the settings `names`, rows)] in the order of their first rows."""
+    groups = {}
+    for row in rows:
+        of = {name: row.settings[name] for name in names if name in row.settings}
+        groups.setdefault(repr(of), (of, []))[1].append(row)
+    return list(groups.values())
+
+
+def _values(rows, name):
+    return {repr(row.settings.get(name)) for row in rows}
+
+
+def _isSample(rows, name):
+    values = [row.settings.get(name) for row in rows]
+    areNumbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
+    return areNumbers and 1 < len(rows) == len(set(values))

@@ -1,18 +1,33 @@
-"""Lines and regions from files of other programs, for readOutline: one module for each kind of file.
+"""Lines, regions and elements from files of other programs, for readOutline and readMesh: one module for each kind of
+file.
 
-Each has `read(name, tolerance)`, which returns a Found, in the units of the file. `tolerance` is in
-these units, None if none was given. What is read is what the usual viewer shows.
+Modules for readOutline have `read(name, tolerance)`, which returns a Found, in the units of the file. `tolerance` is in
+these units, None if none was given. What is read is what the usual viewer shows. Those for readMesh have `read(name)`,
+which returns Elements.
 """
 
 from __future__ import annotations
 
 import collections
+import dataclasses
+import math
+import re
 from collections.abc import Iterable, Mapping
 from types import ModuleType
 from typing import NoReturn
 
-from yadefrag import libraries
+import numpy
+from numpy.typing import ArrayLike
+
+from yadefrag import messages
 from yadefrag.arguments import shownPath
+
+_CORNERS = {'triangle': 3, 'quad': 4, 'line': 2, 'vertex': 1}
+# Number of nodes, with or without those in the middle: the degree of the sides.
+_ORDERS = {'triangle': {6: 2, 7: 2, 9: 3, 10: 3, 12: 4, 15: 4}, 'quad': {8: 2, 9: 2, 12: 3, 16: 3, 20: 4, 25: 4}}
+_LAGRANGE = {'VTK_LAGRANGE_TRIANGLE': 'triangle', 'VTK_LAGRANGE_QUADRILATERAL': 'quad',
+             'VTK_LAGRANGE_CURVE': 'line'}
+MOST_POINTS = 10**6  # on one curve: a tolerance that needs more is a mistake
 
 
 class Found:
@@ -41,7 +56,7 @@ def leftOutWords(leftOut: Mapping[str, int]) -> str:
 
 def needed(module: str, package: str, file: str) -> ModuleType:
     """The module of an optional library that reads `file`."""
-    return libraries.needed(module, package, shownPath(file) + ' can be read')
+    return messages.needed(module, package, shownPath(file) + ' can be read')
 
 
 def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
@@ -57,3 +72,90 @@ def requireTolerance(tolerance: float | None, file: str, what: str) -> float:
         raise ValueError('tolerance is None, but %s %s: give the permitted deviation (m) of '
                          'the outline.' % (shownPath(file), what))
     return tolerance
+
+
+@dataclasses.dataclass
+class Elements:
+    """points     (n, 2 or 3) in units of the file
+    blocks     [(kind, numbers of points (k, c), the places (k) of these elements)]; kind: 'triangle6'
+    labels     name of each element in the file, by its place
+    groups     {name: places of elements}
+    markers    {name: places of elements that mark nodes only}: the node set of that name is theirs
+    nodeSets   {name: numbers of points}
+    instances  {name: places of elements}
+    leftOut    sentences about what was left out
+    """
+
+    points: numpy.ndarray
+    blocks: list
+    labels: list
+    groups: dict = dataclasses.field(default_factory=dict)
+    markers: dict = dataclasses.field(default_factory=dict)
+    nodeSets: dict = dataclasses.field(default_factory=dict)
+    instances: dict = dataclasses.field(default_factory=dict)
+    leftOut: list = dataclasses.field(default_factory=list)
+
+
+def cornersOf(kind: str) -> int:
+    """Number of corners, which are the first nodes of an element; 0 if it is not plane."""
+    return _CORNERS.get(_LAGRANGE.get(kind) or re.sub(r'\d+$', '', kind), 0)
+
+
+def orderOf(kind: str) -> int:
+    """Degree of the sides; 1 for those that are straight, and for kinds that are not known."""
+    found = re.fullmatch(r'(triangle|quad)(\d+)', kind)
+    return _ORDERS[found[1]].get(int(found[2]), 1) if found else 1
+
+
+def counted(number: int, word: str) -> str:
+    """'1 line', '2 lines'."""
+    return '%d %s%s' % (number, word, '' if number == 1 else 's')
+
+
+def piecesOf(bend: float, tolerance: float, least: int = 1) -> int:
+    """Number of pieces of a polyline within a tolerance of a curve r(t), 0 ≤ t ≤ 1, whose second derivative is at most
+    `bend`: the deviation for n uniform parameters is at most max|r''|/(8n²). ValueError for too many."""
+    wanted = math.sqrt(bend / (8 * tolerance))
+    if not wanted < MOST_POINTS:
+        raise ValueError('tolerance needs more than %d points on one curve.' % MOST_POINTS)
+    return max(least, math.ceil(wanted))
+
+
+def bezier(points: ArrayLike, tolerance: float) -> numpy.ndarray:
+    """(n, 2) points of a Bézier curve with 3 or 4 control points, without its first point."""
+    points = numpy.asarray(points, dtype=float)
+    degree = len(points) - 1
+    bends = degree * (degree - 1) * numpy.linalg.norm(numpy.diff(points, n=2, axis=0), axis=1)
+    pieces = piecesOf(bends.max(), tolerance)
+    t = numpy.arange(1, pieces + 1)[:, None] / pieces
+    parts = list(points)
+    while len(parts) > 1:  # de Casteljau's scheme
+        parts = [(1 - t) * a + t * b for a, b in zip(parts, parts[1:])]
+    return parts[0]
+
+
+def ellipticArc(centre: ArrayLike, axes: ArrayLike, start: float, sweep: float,
+                tolerance: float) -> numpy.ndarray:
+    """(n + 1, 2) points from the angle `start` over `sweep` (rad) on centre + a·cos + b·sin; `axes`
+    are the vectors (a, b). At least eight pieces per turn."""
+    a, b = numpy.asarray(axes, dtype=float)
+    reach = math.hypot(numpy.linalg.norm(a), numpy.linalg.norm(b))
+    if abs(a @ b) <= 1e-12 * (a @ a + b @ b):  # perpendicular, e.g. for circles: exact
+        reach = float(max(numpy.linalg.norm(a), numpy.linalg.norm(b)))
+    pieces = piecesOf(reach * sweep**2, tolerance, math.ceil(abs(sweep) / (math.pi / 4)))
+    angles = start + sweep * numpy.arange(pieces + 1)[:, None] / max(pieces, 1)
+    return numpy.asarray(centre, dtype=float) + a * numpy.cos(angles) + b * numpy.sin(angles)
+
+
+def bulge(start: ArrayLike, end: ArrayLike, value: float, tolerance: float) -> numpy.ndarray:
+    """(n, 2) points of the arc of a DXF bulge, tan(angle / 4), from `start` to `end`, without the first."""
+    start, end = numpy.asarray(start, dtype=float), numpy.asarray(end, dtype=float)
+    chord = end - start
+    if value == 0 or not chord.any():
+        return end[None]
+    left = numpy.array([-chord[1], chord[0]])
+    centre = (start + end) / 2 + left * (1 - value**2) / (4 * value)
+    arm = start - centre
+    points = ellipticArc(centre, (arm, (-arm[1], arm[0])), 0, 4 * math.atan(value), tolerance)[1:]
+    points[-1] = end
+    return points

@@ -10,7 +10,7 @@ from collections.abc import Collection
 
 import numpy
 
-from yadefrag.io.readers import Found, flatten, needed, refuseFile, requireTolerance
+from yadefrag.io.readers import Found, bulge, ellipticArc, needed, piecesOf, refuseFile, requireTolerance
 
 _PACKAGE = 'python3-ezdxf'
 _SPLINE_PIECES = 16  # minimum between two knots: ezdxf checks the middle of a piece only
@@ -172,7 +172,7 @@ def _arc(entity, tolerance, name):
         return []
     start, end = (0, 360) if entity.dxftype() == 'CIRCLE' else (entity.dxf.start_angle, entity.dxf.end_angle)
     sweep = math.radians((end - start) % 360 or 360)
-    pieces = flatten.count(radius * sweep**2, tolerance, math.ceil(sweep / (math.pi / 4)))
+    pieces = piecesOf(radius * sweep**2, tolerance, math.ceil(sweep / (math.pi / 4)))
     angles = [start + math.degrees(sweep) * k / pieces for k in range(pieces + 1)]
     points = list(entity.vertices(angles))
     return [points[:-1] + points[:1] if sweep == 2 * math.pi else points]
@@ -184,7 +184,7 @@ def _ellipse(entity, tolerance, name):
     start, end = drawn.start_param, drawn.end_param
     sweep = (end - start) % (2 * math.pi) or 2 * math.pi
     a, b, centre = ((p.x, p.y) for p in (drawn.major_axis, entity.minor_axis, drawn.center))
-    points = flatten.ellipticArc(centre, (a, b), start, sweep, tolerance)
+    points = ellipticArc(centre, (a, b), start, sweep, tolerance)
     if sweep == 2 * math.pi:
         points[-1] = points[0]
     return [points]
@@ -212,7 +212,7 @@ def _polyline(entity, tolerance, name):
     for (x, y, bend), after in zip(corners, corners[1:] + corners[:1] * isClosed):
         if bend:
             requireTolerance(tolerance, name, 'has curves')
-        points.append(flatten.bulge((x, y), after[:2], bend, tolerance))
+        points.append(bulge((x, y), after[:2], bend, tolerance))
     points = numpy.concatenate(points)
     # Mirrored entities have a coordinate system of their own.
     return [list(entity.ocs().points_to_wcs([(x, y, height) for x, y in points.tolist()]))]

@@ -1,14 +1,19 @@
 """Meshes of gmsh (.msh), versions 2 and 4, text or binary: with the numbers of elements, elements in
-several groups, and groups of one name and several dimensions."""
+several groups, and groups of one name and several dimensions. Meshes of all other formats that the library meshio
+reads."""
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
+import io
+import os
 import re
+import threading
 
 import numpy
 
-from yadefrag.io.readers import by_meshio
-from yadefrag.io.readers.elements import Elements, cornersOf
+from yadefrag.io.readers import Elements, cornersOf, needed
 
 _KINDS = {
     1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5',
@@ -21,6 +26,7 @@ _KINDS = {
 
 _HEAD = re.compile(rb'\s*(?:\$Comments.*?\$EndComments\s*)*'
                    rb'\$MeshFormat\s+([\d.]+)\s+(\d)\s+(\d+)[^\n]*\n(....)?', re.DOTALL)
+_LONGEST = 30, 3e-5  # s, and s for each byte: some of meshio's readers never end for an incomplete file
 
 
 class _Numbers:
@@ -33,28 +39,21 @@ class _Numbers:
 
     def take(self, kind, count):
         """`count` numbers: 'i4', 'u8' or 'f8'."""
-        count = int(count)
-        if self._order is None:
-            found = self._data[self._place:self._place + count]
-            self._place += count
-        else:
-            size = count * int(kind[1])
-            found = numpy.frombuffer(self._data[self._place:self._place + size], self._order + kind)
-            self._place += size
-        if count < 0 or len(found) != count:
-            raise ValueError('a section ends too early')
+        found, = self.rows([kind], count)
         return found if kind == 'f8' else found.astype(numpy.int64)
 
     def rows(self, kinds, count):
         """[(count) numbers] of a table whose columns have these kinds."""
-        if self._order is None:
-            return list(self.take('f8', len(kinds) * count).reshape(count, len(kinds)).T)
-        kind = numpy.dtype([(str(i), self._order + k) for i, k in enumerate(kinds)])
-        data = self._data[self._place:self._place + count * kind.itemsize]
-        self._place += count * kind.itemsize
-        found = numpy.frombuffer(data, kind)
-        if len(found) != count:
+        row = numpy.dtype([(str(i), (self._order or '') + kind) for i, kind in enumerate(kinds)])
+        width = row.itemsize if self._order else len(kinds)
+        size = int(count) * width
+        data = self._data[self._place:self._place + size]
+        self._place += size
+        if size < 0 or len(data) != size:
             raise ValueError('a section ends too early')
+        if self._order is None:
+            return list(data.reshape(-1, width).T)
+        found = numpy.frombuffer(data, row)
         return [found[str(i)] for i in range(len(kinds))]
 
 
@@ -66,7 +65,7 @@ def read(name: str) -> Elements:
     if data.lstrip().startswith(b'$NOD'):
         raise ValueError('its version is 1, versions 2 and 4 can be read')
     if not head:
-        return by_meshio.read(name)
+        return readByMeshio(name)
     version, isBinary = head[1].decode(), head[2] == b'1'
     order = ('<' if head[4][:1] == b'\1' else '>') if isBinary else None
     sections = _sections(data)
@@ -240,3 +239,74 @@ def _together(points, tags, found, names):
     return Elements(points, [(kind, numpy.array(rows), numpy.array(numbers))
                              for kind, (rows, numbers) in blocks.items()],
                     [label for _, label, _, _ in found], groups, markers)
+
+
+# --- other formats
+
+def readByMeshio(name: str) -> Elements:
+    """Elements of any format that the library meshio reads; ImportError without the library, ValueError for a file that
+    it cannot read."""
+    meshio = needed('meshio', 'python3-meshio', name)
+    told = io.StringIO()
+    try:
+        # meshio prints why it cannot read a file, and ends the process.
+        with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):
+            mesh = _inTime(lambda: meshio.read(name), _LONGEST[0] + _LONGEST[1] * os.path.getsize(name))
+    except KeyError as error:
+        raise ValueError(_cause(told) or 'it has %s, which meshio does not know' % error) from None
+    except SystemExit:
+        raise ValueError(_cause(told) or 'its contents do not match its ending') from None
+    except Exception as error:
+        raise ValueError(_cause(told) or str(error) or type(error).__name__) from None
+    blocks, count = [], 0
+    for cells in mesh.cells:
+        kind = cells.type + str(len(cells.data[0])) if cells.type == 'polygon' else cells.type
+        blocks.append((kind, cells.data, numpy.arange(count, count + len(cells.data))))
+        count += len(cells.data)
+    starts = numpy.cumsum([0] + [len(cells.data) for cells in mesh.cells])
+    groups = {}
+    for group, parts in mesh.cell_sets.items():
+        groups[group] = numpy.concatenate([start + numpy.asarray(part, dtype=int) for start, part in
+                                           zip(starts, parts) if part is not None] or [[]]).astype(int)
+    sets = {key: numpy.asarray(nodes, dtype=int).ravel() for key, nodes in mesh.point_sets.items()}
+    return Elements(mesh.points, blocks, list(range(count)), groups, nodeSets=sets, leftOut=_told(told))
+
+
+def _inTime(function, seconds):
+    """What `function()` returns or raises; TimeoutError if it takes longer, and then it is ended."""
+    result: list = []
+
+    def work():
+        try:
+            result.append((function(), None))
+        except BaseException as error:
+            result.append((None, error))
+
+    thread = threading.Thread(target=work, daemon=True)
+    thread.start()
+    try:
+        thread.join(seconds)
+    finally:
+        if thread.is_alive():
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident or 0), ctypes.py_object(SystemExit))
+    if not result:
+        raise TimeoutError('reading did not end within %.0f s, the file may be incomplete' % seconds)
+    found, error = result[0]
+    if error is not None:
+        raise error
+    return found
+
+
+def _told(text):
+    """What meshio printed, without colours and marks; one line for each message."""
+    plain = re.sub(r'\x1b\[[\d;]*m', '', text.getvalue())
+    found = []
+    for part in re.split(r'^(?:Warning|Info|Error):', plain, flags=re.MULTILINE):
+        if part.strip():
+            found.append(' '.join(part.split()).rstrip('.'))
+    return found
+
+
+def _cause(text):
+    told = [one for one in _told(text) if not one.startswith("Couldn't read file")]
+    return told[0].split(" Couldn't read file")[0] if told else ''

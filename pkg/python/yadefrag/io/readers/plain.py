@@ -1,4 +1,4 @@
-"""Contents of files without curves: CSV, GeoJSON, WKT."""
+"""Contents of files without curves: CSV, GeoJSON, WKT; contours of a silhouette, by scikit-image."""
 
 import json
 import re
@@ -6,11 +6,15 @@ import re
 import numpy
 
 from yadefrag.arguments import shown, shownPath
-from yadefrag.io.readers import Found, needed, refuseFile
+from yadefrag.io.readers import Found, needed, refuseFile, requireTolerance
 
-_PACKAGE = 'python3-shapely'
+_SHAPELY = 'python3-shapely'
 _BETWEEN = str.maketrans(',;"', '   ')
 _WKT = re.compile(r'\s*;*\s*(?:SRID\s*=\s*\d+\s*;)?\s*([A-Z]+[^()]*?(?:EMPTY|(?=\()))', re.IGNORECASE)
+_LEVEL = .5  # between white (0) and black (1)
+_SIXTEEN_BITS = 16
+_TIFF_BITS, _TIFF_GREY = 258, 262  # tags: bits of a value; 0: the value 0 is white
+ENDINGS = ('.png', '.jpg', '.jpeg', '.bmp', '.tif', '.tiff')
 
 
 def _contents(name):
@@ -57,7 +61,7 @@ def _number(cell):
 
 def readGeoJson(name: str, tolerance: float | None) -> Found:
     """One GeoJSON text, or one on each line."""
-    geometry = needed('shapely.geometry', _PACKAGE, name)
+    geometry = needed('shapely.geometry', _SHAPELY, name)
     found = Found()
     try:
         for data in _texts(_contents(name)):
@@ -97,7 +101,7 @@ def _geometries(data, leftOut):
 
 def readWkt(name: str, tolerance: float | None) -> Found:
     """Geometries one after another, e.g. one on each line."""
-    wkt = needed('shapely.wkt', _PACKAGE, name)
+    wkt = needed('shapely.wkt', _SHAPELY, name)
     found = Found()
     try:
         for one in _wktTexts(_contents(name)):
@@ -144,3 +148,53 @@ def _add(found, shape):
 
 def _plane(line):
     return numpy.array(line.coords, dtype=float)[:, :2]
+
+
+def readPicture(name: str, tolerance: float | None) -> Found:
+    """Contours of the areas darker than middle grey, in pixels from the lower left corner, y upwards; transparent areas
+    count as white."""
+    requireTolerance(tolerance, name, 'is a picture')
+    image = needed('PIL.Image', 'python3-pil', name)
+    operations = needed('PIL.ImageOps', 'python3-pil', name)
+    measure = needed('skimage.measure', 'python3-skimage', name)
+    try:
+        with image.open(name) as picture:
+            tags = dict(getattr(picture, 'tag_v2', {}))
+            key = picture.info.get('transparency')
+            others = getattr(picture, 'n_frames', 1) - 1
+            # Pillow 11 and 12 map the values of a TIFF that is stored on its side into memory with the sizes
+            # of the turned picture. They do not if they know no file of this name.
+            picture.filename = ''
+            picture.load()  # turns a TIFF, which exif_transpose would turn once more
+            upright = picture if picture.format == 'TIFF' else operations.exif_transpose(picture)
+            dark = _darkness(image, upright, tags, key)
+    except Exception as error:  # of the library
+        refuseFile(name, 'picture', error)
+    height = len(dark)
+    contours = measure.find_contours(numpy.pad(dark, 1), _LEVEL)
+    # The middle of pixel (row 0, column 0) is at (1, 1) in the padded array.
+    found = Found([numpy.stack([c[:, 1] - .5, height + .5 - c[:, 0]], axis=1) for c in contours])
+    if others:
+        found.leftOut['further pictures of the file'] += others
+    return found
+
+
+def _darkness(image, picture, tags, key):
+    """(rows, columns) from 0, white, to 1, black. `tags` are those of a TIFF, `key` is the value that
+    is transparent or None."""
+    if not picture.mode.startswith(('I', 'F')):
+        if isinstance(key, tuple) and max(key) > 255:  # PIL keeps the upper eight bits of colours
+            picture.info['transparency'] = tuple(value >> 8 for value in key)
+        colours = picture.convert('RGBA')
+        paper = image.new('RGBA', colours.size, 'white')
+        return 1 - numpy.asarray(image.alpha_composite(paper, colours).convert('L')) / 255
+    bits = numpy.max(tags.get(_TIFF_BITS, _SIXTEEN_BITS))
+    grey = numpy.asarray(picture).astype(float)
+    if picture.mode == 'F' or bits > _SIXTEEN_BITS or grey.min() < 0:
+        raise ValueError('its grey values do not have 8 or 16 bits')
+    grey /= 2**int(bits) - 1
+    if tags.get(_TIFF_GREY) == 0:
+        grey = 1 - grey
+    if key is not None:
+        grey[numpy.asarray(picture) == key] = 1
+    return 1 - grey

@@ -103,7 +103,7 @@ class _Walk:
         matrix = place.matrix @ self._transform(style, place.view)
         place = dataclasses.replace(place, style=style, matrix=matrix)
         if tag in _SHAPES:
-            return self._shape(element, tag, place)
+            return self._shape(tag, place)
         if tag in _OTHERS:
             self.leftOut[_OTHERS[tag]] += style['visibility'] == 'visible'
             return None
@@ -178,7 +178,7 @@ class _Walk:
         for child in element:
             self._visit(child, place)
 
-    def _shape(self, element, tag, place):
+    def _shape(self, tag, place):
         style = place.style
         if style['visibility'] != 'visible':
             self.leftOut['hidden shapes'] += 1

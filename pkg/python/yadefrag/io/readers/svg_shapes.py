@@ -5,8 +5,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy
 
-from yadefrag.io.readers import Found, flatten, needed, nesting, requireTolerance
-from yadefrag.io.readers.loops import area
+from yadefrag.io.readers import Found, bezier, ellipticArc, needed, requireTolerance
+from yadefrag.io.readers.loops import area, around, nested
 
 _FLAT = 1e-12  # of the square of the extent: the area of a line
 _SLIVER = 1e-9  # of the extent, or of an area: rounding, at an edge that cuts a shape
@@ -91,10 +91,9 @@ def _filled(loops, rule, name):
     loops = [loop[::turn] for loop, turn in zip(loops, turns)]
     kept = loops
     if rule != 'evenodd':
-        outside = [sum(turns[j] for j in those) for those in nesting.around([(one, []) for one in loops])]
-        kept = [loop for loop, turn, around in zip(loops, turns, outside)
-                if around == 0 or around + turn == 0]
-    return nesting.nested([(loop, []) for loop in kept], name), len(loops) - len(kept)
+        outside = [sum(turns[j] for j in those) for those in around([(one, []) for one in loops])]
+        kept = [loop for loop, turn, beyond in zip(loops, turns, outside) if beyond == 0 or beyond + turn == 0]
+    return nested([(loop, []) for loop in kept], name), len(loops) - len(kept)
 
 
 def _clipped(found, item, tolerance, name):
@@ -195,7 +194,7 @@ def _curve(segment, tolerance):
     else:
         centre, a, b = ((p.x, p.y) for p in (segment.center, segment.prx, segment.pry))
         axes = numpy.subtract(a, centre), numpy.subtract(b, centre)
-        points = flatten.ellipticArc(centre, axes, segment.get_start_t(), segment.sweep, tolerance)
+        points = ellipticArc(centre, axes, segment.get_start_t(), segment.sweep, tolerance)
         points[-1] = segment.end.x, segment.end.y
         return points[1:]
-    return flatten.bezier([(p.x, p.y) for p in controls], tolerance)
+    return bezier([(p.x, p.y) for p in controls], tolerance)

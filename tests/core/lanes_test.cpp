@@ -1,0 +1,137 @@
+// Vector loops: four values at once, and functions of the C library.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/four_lanes.hpp"
+#include "core/instruction_set.hpp"
+#include "core/lane_math.hpp"
+#include "core/random.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+using Four = std::array<double, 4>;
+
+struct Results {
+  Four cross, product;
+  double dot, norm, squaredNormOfFour;
+};
+
+Results byLanes(InstructionSet set, const Four& a, const Four& b) {
+  Results results;
+  runFor(
+      set, [&]() __attribute__((always_inline)) {
+        const FourLanes one = loadFour(a.data()), two = loadFour(b.data());
+        storeFour(cross(one, two), results.cross.data());
+        storeFour(quaternionProduct(one, two), results.product.data());
+        results.dot = dot(one, two);
+        results.norm = norm(one);
+        results.squaredNormOfFour = squaredNormOfFour(one);
+      });
+  return results;
+}
+
+// By the formulas of Eigen without vectors, component by component.
+Results byComponents(const Four& a, const Four& b) {
+  const auto& [ax, ay, az, aw] = a;
+  const auto& [bx, by, bz, bw] = b;
+  Results results;
+  results.cross = {ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx, 0};
+  results.product = {aw * bx + ax * bw + ay * bz - az * by, aw * by + ay * bw + az * bx - ax * bz,
+                     aw * bz + az * bw + ax * by - ay * bx, aw * bw - ax * bx - ay * by - az * bz};
+  results.dot = ax * bx + (ay * by + az * bz);
+  results.norm = std::sqrt(ax * ax + (ay * ay + az * az));
+  results.squaredNormOfFour = (ax * ax + ay * ay) + (az * az + aw * aw);
+  return results;
+}
+
+class FourLanesOf : public testing::TestWithParam<InstructionSet> {};
+
+TEST_P(FourLanesOf, HaveTheBitsOfComponents) {
+  if (GetParam() == InstructionSet::kAvx2 && bestInstructionSet() != InstructionSet::kAvx2) {
+    GTEST_SKIP() << "no AVX2";
+  }
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> anyValue(0, 3);
+  for (int i = 0; i < 2000; ++i) {
+    Four a, b;
+    for (double& value : a) value = anyValue(random);
+    for (double& value : b) value = anyValue(random);
+    const Results lanes = byLanes(GetParam(), a, b), components = byComponents(a, b);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.cross[k], components.cross[k]);
+    EXPECT_EQ(lanes.product, components.product);
+    EXPECT_EQ(lanes.dot, components.dot);
+    EXPECT_EQ(lanes.norm, components.norm);
+    EXPECT_EQ(lanes.squaredNormOfFour, components.squaredNormOfFour);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, FourLanesOf,
+                         testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2));
+
+TEST(FourLanes, ThreeLeavesTheFourthValue) {
+  Four stored = {1, 2, 3, 4};
+  storeThree(loadThree(stored.data()) * 2., stored.data());
+  EXPECT_EQ(stored, (Four{2, 4, 6, 4}));
+}
+
+// --- Logarithm, exponential and power of the vector loops, compared with the C library's in long
+// double over their whole ranges.
+
+constexpr int kCount = 200000;
+
+double errorOf(double found, long double right) {
+  return static_cast<double>(std::abs((static_cast<long double>(found) - right) / right));
+}
+
+TEST(LaneMath, LogarithmOfAllNormalNumbers) {
+  Random random(1);
+  double most = 0, mostNearOne = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double exponent = even(random, -1022, 1023), mantissa = even(random, 1, 2);
+    const double x = std::ldexp(mantissa, static_cast<int>(exponent));
+    most = std::max(most, errorOf(logOf(x), std::log(static_cast<long double>(x))));
+    const double near = 1 + std::exp(even(random, -30, -1)) * (i % 2 == 0 ? 1 : -.5);
+    mostNearOne =
+        std::max(mostNearOne, errorOf(logOf(near), std::log(static_cast<long double>(near))));
+  }
+  EXPECT_EQ(logOf(1), 0);
+  EXPECT_LT(most, 1e-15);
+  EXPECT_LT(mostNearOne, 1e-15);
+}
+
+TEST(LaneMath, ExponentialFromTheLeastToTheLargestNumber) {
+  Random random(2);
+  double most = 0, mostTiny = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double x = even(random, -700, 700), tiny = even(random, -.02, .02);
+    most = std::max(most, errorOf(expOf(x), std::exp(static_cast<long double>(x))));
+    mostTiny =
+        std::max(mostTiny, errorOf(expOfTiny(tiny), std::exp(static_cast<long double>(tiny))));
+  }
+  EXPECT_EQ(expOf(0), 1);
+  EXPECT_LT(most, 1e-15);
+  EXPECT_LT(mostTiny, 1e-15);
+}
+
+// The error of y log x is one of the power: 10⁻¹⁵ times its size.
+TEST(LaneMath, Powers) {
+  Random random(3);
+  double most = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double x = std::exp(even(random, -30, 30)), y = even(random, .01, 3);
+    const long double right = std::pow(static_cast<long double>(x), static_cast<long double>(y));
+    const double size = std::abs(y * std::log(x));
+    most = std::max(most, errorOf(powerOf(x, y), right) / (1 + size));
+  }
+  EXPECT_LT(most, 1e-15);
+  EXPECT_EQ(powerOf(0, .3), 0);
+}
+
+}  // namespace
+}  // namespace yadefrag::test
