@@ -11,9 +11,12 @@ namespace yadefrag {
 void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2> before,
                           std::span<const Vec2> now, int threads) {
   const std::size_t count = surfaces.entries();
-  pieces_.resize(count);
+  pieces_.resize(count), moved_.resize(count);
   const bool anySmooth = surfaces.anySmooth();
   const PieceGeometry start(surfaces, before), end(surfaces, now);
+  const auto nodeOf = [&](EntryId entry) {
+    return surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+  };
   forEachPart(count, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t e = first; e < last; ++e) {
       const EntryId entry(e);
@@ -21,18 +24,18 @@ void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2>
       piece.next = surfaces.next[e];
       piece.former = surfaces.prev[e].value & 0x7fffffffU;
       piece.isArc = surfaces.piece[e] == Piece::kArc ? 1 : 0;
+      Vec2 next;
       if (anySmooth) {
         piece.begin = start.slave(entry), piece.moved = end.slave(entry) - piece.begin;
+        next = start.slave(piece.next);
       } else {
-        const NodeId node = surfaces.segmentNode[surfaces.entrySegment[e].value];
+        const NodeId node = nodeOf(entry);
         piece.begin = before[node.value], piece.moved = now[node.value] - piece.begin;
+        next = before[nodeOf(piece.next).value];
       }
-    }
-  });
-  forEachPart(count, threads, [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t e = first; e < last; ++e) {
-      MovingPiece& piece = pieces_[e];
-      const Vec2 chord = pieces_[piece.next.value].begin - piece.begin;
+      moved_[e] = piece.moved;
+      // In the same pass, although both ends are then read twice: memory limits the speed.
+      const Vec2 chord = next - piece.begin;
       piece.length = norm(chord);
       piece.along = piece.length > 0 ? (1 / piece.length) * chord : Vec2{};
     }
@@ -43,15 +46,14 @@ double MovingPieces::largestMove() const {
   // By the displacement itself: a part at rest has no weight, one that rounding moves hardly any.
   Vec2 sum;
   double weights = 0;
-  for (const MovingPiece& piece : pieces_) {
-    const double weight = norm(piece.moved);
-    sum += weight * piece.moved, weights += weight;
+  for (const Vec2 moved : moved_) {
+    const double weight = norm(moved);
+    sum += weight * moved, weights += weight;
   }
   if (!(weights > 0)) return 0;
   const Vec2 mean = 1 / weights * sum;
   double most = 0;
-  for (const MovingPiece& piece : pieces_)
-    most = std::max(most, dot(piece.moved - mean, piece.moved - mean));
+  for (const Vec2 moved : moved_) most = std::max(most, dot(moved - mean, moved - mean));
   return std::sqrt(most);
 }
 

@@ -46,6 +46,8 @@ class MovingPieces {
 
  private:
   std::vector<MovingPiece> pieces_;
+  std::vector<Vec2>
+      moved_;  // m, of the begins: a quarter of what the pieces themselves are to read
 };
 
 }  // namespace yadefrag

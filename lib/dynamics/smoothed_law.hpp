@@ -22,7 +22,7 @@
 namespace yadefrag {
 
 /// α. With 0.4 a cantilever four triangles high bends as by theory, on all meshes and up to ν =
-/// 0.49 (dynamics/bending_test.cpp, lib/README.md). A larger α is softer on all of them.
+/// 0.49 (mechanics/patch_test.cpp, lib/README.md). A larger α is softer on all of them.
 inline constexpr double kSmoothedShare = .4;
 
 /// F (1), or the stress ∂W/∂(a, b, c, d) (Pa), as a similarity a, b and a distortion c, d.
