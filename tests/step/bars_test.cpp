@@ -262,6 +262,36 @@ TEST_P(TouchingBlocks, TakeTheEnergyOfBlocksAHairApart) {
   figure("largest_energy_over_that_of_blocks_apart", most / mostApart, 1, .03);
 }
 
+/// Joints that stay open cost no detection; those that gravity closes are looked at in time: the
+/// same bits as with detection in each step.
+TEST_P(TouchingBlocks, AreNotLookedAtWhileTheyAreApart) {
+  build({4, 5e-5});
+  world_.step(dt_);
+  const double first = world_.contact.candidates.nearest.when;
+  for (int i = 0; i < 50; ++i) world_.step(dt_);
+  EXPECT_EQ(world_.contact.candidates.nearest.when, first);
+  EXPECT_FALSE(world_.contact.candidates.distances.empty());
+
+  World closing, always;
+  for (World* world : {&closing, &always}) {
+    world->contactSettings.passes = GetParam();
+    addBlockWall(*world, {4, 1e-7});
+  }
+  std::size_t rows = 0, skipped = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double before = closing.contact.candidates.nearest.when;
+    closing.step(dt_);
+    skipped += closing.contact.candidates.nearest.when == before ? 1 : 0;
+    always.contact.candidates.distances.clear();
+    always.step(dt_);
+    rows = std::max(rows, closing.contact.rows().size());
+  }
+  EXPECT_GT(rows, 50U);
+  EXPECT_GT(skipped, 0U);
+  EXPECT_EQ(closing.model.nodes.position, always.model.nodes.position);
+  EXPECT_EQ(closing.model.nodes.velocity, always.model.nodes.velocity);
+}
+
 INSTANTIATE_TEST_SUITE_P(Passes, TouchingBlocks, testing::Values(1, 2),
                          [](const auto& pass) { return pass.param == 1 ? "One" : "Two"; });
 
