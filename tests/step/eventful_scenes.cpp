@@ -145,7 +145,8 @@ std::map<std::string, Scene> scenes() {
   all["crowd"] = [] {
     World world;
     for (int k = 0; k < 9; ++k) {
-      const Vec2 place{double(k % 3), double(k / 3)};
+      const int row = k / 3;
+      const Vec2 place{double(k % 3), double(row)};
       const bool disc = k % 2 == 0;
       const TriangleMesh mesh =
           triangulate({circle(1.02 * place, .5, disc ? 16 : 4, .7 * k), {}}, 1. / (4 + k % 3));
