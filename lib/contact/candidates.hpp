@@ -15,12 +15,12 @@ struct Candidates {
   std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
   std::vector<EntryId> masters;        ///< ascending within a row
 
-  /// How far a row's slave is from a contact, at the last detection that looked at it. All values
-  /// hold for changes of shape by motion, and are lost with any change of the candidates.
+  /// How far a row's slave is from a contact, at the last detection that examined it. Motion keeps
+  /// the values valid, as bounds; any change of the candidates deletes them.
   struct Distance {
     double far;   ///< m, from the pieces and corners that were not near; and
     double open;  ///< m, gap that keeps the near ones without a row
-    double when;  ///< m, `ContactStep::travelled` then
+    double when;  ///< m, bound of what each surface node had moved until then
   };
   std::vector<Distance> distances;  ///< by row; empty: unknown
   Distance nearest{};               ///< of all rows

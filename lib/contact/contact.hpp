@@ -115,8 +115,8 @@ class Contact {
   void sumForces();
   void finish(Model& model, const ContactStep& step);
 
-  double travelled_ =
-      0;             // m, bound of what each surface node has moved so far; also by undone steps
+  // m, bound of what each surface node has moved so far, undone steps included.
+  double travelled_ = 0;
   double move_ = 0;  // m, largest displacement of a surface in this step, relative to the mean
   RowFinder finder_;
   RowSweeps sweeps_;

@@ -2,6 +2,8 @@
 // The pieces of all boundaries in one step, as detection reads them: positions at xⁿ and
 // displacements to x*, the positions without contact.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +27,13 @@ struct alignas(64) MovingPiece {
 
   [[nodiscard]] Vec2 normal() const { return rightOf(along); }
   [[nodiscard]] EntryId prev() const { return EntryId(std::size_t{former}); }
+  /// (m) The larger of the distances from the chord's line and beside the chord: at most the
+  /// distance from the chord.
+  [[nodiscard]] double distance(Vec2 point) const {
+    const Vec2 from = point - begin;
+    const double half = .5 * length;
+    return std::max(std::abs(cross(along, from)), std::abs(dot(from, along) - half) - half);
+  }
 };
 
 /// All of them, by entry.
@@ -46,8 +55,8 @@ class MovingPieces {
 
  private:
   std::vector<MovingPiece> pieces_;
-  std::vector<Vec2>
-      moved_;  // m, of the begins: a quarter of what the pieces themselves are to read
+  // m, those of the pieces: a quarter of the memory to read for `largestMove`.
+  std::vector<Vec2> moved_;
 };
 
 }  // namespace yadefrag

@@ -91,10 +91,7 @@ void RowFinder::visit(std::size_t row, Visit& with) const {
   for (std::uint32_t c = begin; c < end; ++c) {
     const EntryId master = candidates.masters[c];
     const MovingPiece& piece = pieces_[master];
-    const Vec2 from = at - piece.begin;
-    const double gap = std::abs(cross(piece.along, from)), half = .5 * piece.length;
-    const double beside = std::abs(dot(from, piece.along) - half) - half;
-    const double distance = std::max(gap, beside);
+    const double distance = piece.distance(at);
     const bool isNear = (distance <= wide) | static_cast<bool>(piece.isArc);
     with.near[count] = master;
     count += static_cast<std::size_t>(isNear);
@@ -112,13 +109,9 @@ void RowFinder::visit(std::size_t row, Visit& with) const {
 }
 
 void RowFinder::visitArc(EntryId slave, EntryId master, Visit& with) const {
-  const MovingPiece& piece = pieces_[master];
-  const Vec2 at = pieces_[slave].begin, from = at - piece.begin;
-  const double gap = std::abs(cross(piece.along, from)), half = .5 * piece.length;
-  const double beside = std::abs(dot(from, piece.along) - half) - half;
   // A Bézier arc is no farther from its chord than half of what its middle node is.
   const double bulge = .5 * with.before.bulge(master, with.before.ends(master));
-  const double distance = std::max(gap, beside) - bulge;
+  const double distance = pieces_[master].distance(pieces_[slave].begin) - bulge;
   if (distance > tolerance::kFar * with.sizes.wide && !with.sizes.isFast) {
     with.far = std::min(with.far, distance);
     return;
