@@ -1,4 +1,4 @@
-"""What scripts are told. Warnings of the plugin, at the script's line; one that many bodies or bonds have is given once,
+"""Messages to scripts. Warnings of the plugin, at the script's line; one that many bodies or bonds have is given once,
 with their number. Calls with wrong arguments: what Python refuses in its own words is refused with one sentence.
 Libraries that only some functions need, and that are missing."""
 

@@ -1,10 +1,11 @@
-"""What the tests of readOutline share: files, and how far loops are from curves."""
+"""What the tests of readOutline and readMesh share: files, and how far loops are from curves."""
 import os
 import warnings
 
 import numpy as np
+import pytest
 
-from yadefrag import readOutline
+from yadefrag import readMesh, readOutline
 from yadefrag.io.readers import loops
 
 kSquare = [(0, 0), (4, 0), (4, 4), (0, 4)]
@@ -15,6 +16,18 @@ def written(folder, name, text):
     with open(file, 'w', encoding='utf-8') as out:
         out.write(text)
     return file
+
+
+def isOneSentence(error):
+    text = str(error.value)
+    return text.endswith('.') and text.count('. ') == 0 and '\n' not in text
+
+
+def refusesMesh(folder, name, text, words):
+    """readMesh refuses this file in one sentence with these words (a regular expression)."""
+    with pytest.raises(ValueError, match=words) as error:
+        readMesh(written(folder, name, text))
+    assert isOneSentence(error)
 
 
 def svg(folder, body, page='viewBox="0 0 100 50"'):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from outline_files import area, offLine
+from outline_files import area, isOneSentence, offLine
 from yadefrag import _yadefrag
 from yadefrag.fe import geometry
 from yadefrag.fe.geometry import simplified
@@ -18,11 +18,6 @@ from yadefrag.io import outlines
 kAngle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
 kPlate = geometry.rectangle((0, 0), (2, 2))
 kDisc = geometry.circle((1, 1), 1, 40)
-
-
-def isOneSentence(error):
-    text = str(error.value)
-    return text.endswith('.') and text.count('. ') == 0 and '\n' not in text
 
 
 def test_rectangleIsCounterClockwise():

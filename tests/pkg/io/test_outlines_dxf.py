@@ -1,5 +1,5 @@
 """Outlines from DXF: lines that meet, arcs, bulges, splines, blocks, layers; what a viewer shows is what is read, the
-rest is told with its number."""
+rest is named with its number."""
 import math
 import os
 

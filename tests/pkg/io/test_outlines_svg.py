@@ -1,5 +1,5 @@
 """What a viewer shows of an SVG file is what is read: a table of constructs, with the area that is painted, beside the
-picture of librsvg where it is installed; what is left out is told with its number."""
+picture of librsvg where it is installed; what is left out is named with its number."""
 import os
 import shutil
 import subprocess

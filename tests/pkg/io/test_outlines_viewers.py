@@ -1,4 +1,4 @@
-"""What a viewer shows of a map, a table or a picture is what is read; the rest is told with its number. Silhouettes
+"""What a viewer shows of a map, a table or a picture is what is read; the rest is named with its number. Silhouettes
 with holes, specks, edges."""
 import json
 import math

@@ -34,12 +34,12 @@ def jobOf(name: str, scene: Callable, measure: Callable, watch: Callable | None,
         raise RuntimeError('%s is called while one of its runs loads the script; put the call '
                            "after `if __name__ == '__main__':`." % name)
     functions: list[Any] = [scene, measure] + [watch] * (watch is not None)
-    for name, function in zip(('scene', 'measure', 'watch'), functions):
+    for argument, function in zip(('scene', 'measure', 'watch'), functions):
         module = sys.modules.get(getattr(function, '__module__', ''))
         found: Any = vars(module or os).get(getattr(function, '__name__', ''))
         if not callable(function) or not hasattr(function, '__code__') \
                 or inspect.unwrap(found) is not inspect.unwrap(function):
-            refuse(name, function, 'a function at the top level of a file, which each run loads')
+            refuse(argument, function, 'a function at the top level of a file, which each run loads')
     modules = {function.__module__ for function in functions}
     if len(modules) > 1:
         raise ValueError('scene, measure and watch are in the modules %s, they must be in one '
