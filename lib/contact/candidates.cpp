@@ -9,57 +9,110 @@ namespace yadefrag {
 
 namespace {
 
-/// Stores the pairs, ascending, as rows; returns the former candidates.
-Candidates fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs) {
-  assert(std::is_sorted(pairs.begin(), pairs.end()));
-  Candidates next;
-  next.masters.reserve(pairs.size());
-  for (const SlaveMaster& pair : pairs) {
-    if (next.slaves.empty() || next.slaves.back() != pair.slave) {
-      next.slaves.push_back(pair.slave);
-      next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
-    }
-    next.masters.push_back(pair.master);
+/// The pairs with the same slave as the first one.
+std::span<const SlaveMaster> firstRow(std::span<const SlaveMaster> pairs) {
+  std::size_t count = 0;
+  while (count < pairs.size() && pairs[count].slave == pairs.front().slave) ++count;
+  return pairs.first(count);
+}
+
+/// Calls `visit(pairs)` for each slave of pairs, which it sorts.
+template <class Visit>
+void forRows(std::vector<SlaveMaster>& pairs, Visit visit) {
+  std::sort(pairs.begin(), pairs.end());
+  for (std::span<const SlaveMaster> rest(pairs); !rest.empty();) {
+    const auto row = firstRow(rest);
+    visit(row);
+    rest = rest.subspan(row.size());
   }
-  next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
-  std::swap(candidates, next);
-  return next;
 }
 
 }  // namespace
 
-void Candidates::clear() { *this = {}; }
+void Candidates::index(std::size_t entries) {
+  rowOf_.resize(std::max(entries, rowOf_.size()), kNone);
+  for (; indexed_ < slaves.size(); ++indexed_) {
+    const auto row = static_cast<std::uint32_t>(indexed_);
+    const std::uint32_t former = std::exchange(rowOf_[slaves[row].value], row);
+    const auto slaveOf = [this](std::uint32_t r) { return slaves[r]; };
+    const auto at = rows_.empty() || slaveOf(rows_.back()) < slaves[row]
+                        ? rows_.end()
+                        : std::ranges::lower_bound(rows_, slaves[row], {}, slaveOf);
+    if (former == kNone)
+      rows_.insert(at, row);
+    else
+      *at = row;
+  }
+}
 
-void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<SlaveMaster> former, all;
-  former.reserve(candidates.size());
-  for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c)
-      former.push_back({candidates.slaves[r], candidates.masters[c]});
-  all.reserve(former.size() + pairs.size());
-  std::set_union(former.begin(), former.end(), pairs.begin(), pairs.end(), std::back_inserter(all));
-  fill(candidates, all);
+void Candidates::appendSlavesOf(EntryId master, std::vector<EntryId>& found) {
+  placeOf_.resize(rowOf_.size(), kNone);
+  // Only scenes with cracks need these lists.
+  for (std::size_t place = nextPlace_.size(); place < masters.size(); ++place) {
+    std::uint32_t& head = placeOf_[masters[place].value];
+    nextPlace_.push_back(std::exchange(head, static_cast<std::uint32_t>(place)));
+  }
+  for (std::uint32_t at = placeOf_[master.value]; at != kNone; at = nextPlace_[at]) {
+    const auto after = std::upper_bound(offsets.begin(), offsets.end(), at);
+    const auto row = static_cast<std::size_t>(after - offsets.begin()) - 1;
+    if (rowOf(slaves[row]) == row) found.push_back(slaves[row]);
+  }
 }
 
 Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  return fill(candidates, pairs);
+  Candidates next;
+  next.masters.reserve(pairs.size());
+  next.offsets.push_back(0);
+  forRows(pairs, [&](std::span<const SlaveMaster> row) {
+    next.slaves.push_back(row.front().slave);
+    for (const SlaveMaster& pair : row) next.masters.push_back(pair.master);
+    next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
+  });
+  std::swap(candidates, next);
+  return next;
+}
+
+void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                   std::span<const EntryId> around) {
+  if (candidates.offsets.empty()) candidates.offsets.push_back(0);
+  std::vector<EntryId> all;
+  forRows(pairs, [&](std::span<const SlaveMaster> row) {
+    const EntryId slave = row.front().slave;
+    assert(std::ranges::binary_search(around, slave));
+    all.clear();
+    const std::uint32_t former = candidates.rowOf(slave);
+    if (former != Candidates::kNone) {
+      const auto masters = candidates.mastersOf(former);
+      all.assign(masters.begin(), masters.end());
+    }
+    const std::size_t known = all.size();
+    for (const SlaveMaster& pair : row)
+      if (!std::binary_search(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(known),
+                              pair.master))
+        all.push_back(pair.master);
+    if (all.size() == known) return;
+    std::sort(all.begin(), all.end());
+    candidates.slaves.push_back(slave);
+    candidates.masters.insert(candidates.masters.end(), all.begin(), all.end());
+    candidates.offsets.push_back(static_cast<std::uint32_t>(candidates.masters.size()));
+  });
+  candidates.index();
+  if (!candidates.distances.empty()) candidates.distances.resize(candidates.slaves.size());
+  for (const EntryId entry : around)
+    if (const std::uint32_t row = candidates.rowOf(entry); row < candidates.distances.size())
+      candidates.distances[row] = {};
+  candidates.nearest = {};
 }
 
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {
-  Candidates kept;
-  for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
+  std::vector<SlaveMaster> kept;
+  for (const std::uint32_t r : candidates.rows()) {
     if (surfaces.isGone(candidates.slaves[r])) continue;
-    const auto begin = static_cast<std::uint32_t>(kept.masters.size());
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c)
-      if (!surfaces.isGone(candidates.masters[c])) kept.masters.push_back(candidates.masters[c]);
-    if (kept.masters.size() == begin) continue;
-    kept.slaves.push_back(candidates.slaves[r]);
-    kept.offsets.push_back(begin);
+    for (const EntryId master : candidates.mastersOf(r))
+      if (!surfaces.isGone(master)) kept.push_back({candidates.slaves[r], master});
   }
-  kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
-  candidates = std::move(kept);
+  replaceCandidates(candidates, kept);
+  candidates.index(surfaces.entries());
 }
 
 }  // namespace yadefrag

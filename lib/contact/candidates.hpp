@@ -2,6 +2,7 @@
 // Slaves and masters that may touch before the next search (paper §3.2).
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/ids.hpp"
@@ -9,14 +10,15 @@
 
 namespace yadefrag {
 
-/// Rows by slave.
+/// Rows by slave. A search makes them anew. A crack appends rows: the last row of a slave replaces
+/// the former ones, so that a crack costs what is near it, not what is near anywhere.
 struct Candidates {
-  std::vector<EntryId> slaves;         ///< slaves with candidates, ascending
+  std::vector<EntryId> slaves;         ///< slaves with candidates
   std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
   std::vector<EntryId> masters;        ///< ascending within a row
 
   /// How far a row's slave is from a contact, at the last detection that examined it. Motion keeps
-  /// the values valid, as bounds; any change of the candidates deletes them.
+  /// the values valid, as bounds; a change of the row or of its pieces deletes them.
   struct Distance {
     double far;   ///< m, from the pieces and corners that were not near; and
     double open;  ///< m, gap that keeps the near ones without a row
@@ -26,7 +28,27 @@ struct Candidates {
   Distance nearest{};               ///< of all rows
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
-  void clear();
+  void clear() { *this = {}; }
+
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// After rows were added or loaded, for the functions below. `entries`: of the surfaces.
+  void index(std::size_t entries = 0);
+  /// The rows in force, by slave, ascending: results do not depend on when a search was done.
+  [[nodiscard]] const std::vector<std::uint32_t>& rows() const { return rows_; }
+  /// The row of a slave, or kNone.
+  [[nodiscard]] std::uint32_t rowOf(EntryId slave) const { return rowOf_[slave.value]; }
+  [[nodiscard]] std::span<const EntryId> mastersOf(std::size_t row) const {
+    return {masters.data() + offsets[row], masters.data() + offsets[row + 1]};
+  }
+  /// Appends the slaves that have this master.
+  void appendSlavesOf(EntryId master, std::vector<EntryId>& found);
+
+ private:
+  std::vector<std::uint32_t> rowOf_;  // by entry
+  std::vector<std::uint32_t> rows_;
+  std::size_t indexed_ = 0;  // number of rows in `rowOf_`
+  // By entry as a master: one of its places in `masters`; by place: another one.
+  std::vector<std::uint32_t> placeOf_, nextPlace_;
 };
 
 /// A slave and a master in whose halo it is.
@@ -36,13 +58,15 @@ struct SlaveMaster {
   friend auto operator<=>(const SlaveMaster&, const SlaveMaster&) = default;
 };
 
-/// Sorts the pairs into rows. Returns the former `candidates`.
+/// Sorts the pairs into rows, ascending. Returns the former `candidates`.
 Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs);
 
-/// The same, in addition to the existing candidates.
-void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs);
+/// Adds pairs to indexed candidates after the pieces of the entries `around` have changed: these
+/// include all slaves of the pairs, and all slaves with a master among them.
+void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                   std::span<const EntryId> around);
 
-/// Removes pairs with a removed piece.
+/// Removes pairs with a removed piece from indexed candidates.
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces);
 
 }  // namespace yadefrag

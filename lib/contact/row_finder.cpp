@@ -9,9 +9,10 @@ namespace yadefrag {
 namespace {
 
 /// The least of all, as if they were of now.
-Candidates::Distance leastOf(std::span<const Candidates::Distance> distances, double travelled) {
+Candidates::Distance leastOf(const Candidates& candidates, double travelled) {
   Candidates::Distance least{INFINITY, INFINITY, travelled};
-  for (const Candidates::Distance& one : distances) {
+  for (const std::uint32_t row : candidates.rows()) {
+    const Candidates::Distance& one = candidates.distances[row];
     const double moved = travelled - one.when;
     least.far = std::min(least.far, one.far - 2 * moved);
     least.open = std::min(least.open, one.open - moved / tolerance::kOpenShare);
@@ -36,11 +37,8 @@ bool RowFinder::mayFind(const Candidates& candidates, const ContactSizes& sizes,
 std::vector<NearRow>& RowFinder::find(Candidates& candidates, const ContactSurfaces& surfaces,
                                       const Positions& positions, const ContactSizes& sizes,
                                       double travelled, int threads) {
-  rowOf_.assign(surfaces.entries(), kNone);
-  const std::size_t count = candidates.slaves.size();
-  for (std::size_t r = 0; r < count; ++r)
-    rowOf_[candidates.slaves[r].value] = static_cast<std::uint32_t>(r);
-  candidates.distances.resize(count);
+  const std::size_t count = candidates.rows().size();
+  candidates.distances.resize(candidates.slaves.size());
   parts_.resize(static_cast<std::size_t>(threadsFor(count, threads)));
   forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int part) {
     PartList<NearRow>& found = parts_[static_cast<std::size_t>(part)];
@@ -54,7 +52,8 @@ std::vector<NearRow>& RowFinder::find(Candidates& candidates, const ContactSurfa
                {},
                {},
                {}};
-    for (std::size_t r = begin; r < end; ++r) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t r = candidates.rows()[i];
       Candidates::Distance& distance = candidates.distances[r];
       const std::size_t former = found.size();
       if (isQuiet(distance, sizes, travelled)) {
@@ -71,8 +70,8 @@ std::vector<NearRow>& RowFinder::find(Candidates& candidates, const ContactSurfa
   } else {
     for (const auto& part : parts_) rows_.insert(rows_.end(), part.begin(), part.end());
   }
-  candidates.nearest = rows_.empty() ? leastOf(candidates.distances, travelled)
-                                     : Candidates::Distance{0, 0, travelled};
+  candidates.nearest =
+      rows_.empty() ? leastOf(candidates, travelled) : Candidates::Distance{0, 0, travelled};
   return rows_;
 }
 
@@ -84,12 +83,11 @@ void RowFinder::visit(std::size_t row, Visit& with) const {
   const double wide = with.sizes.wide;
   // First which masters are near, without branches: most are not, in no order that a processor
   // could predict.
-  const std::uint32_t begin = candidates.offsets[row], end = candidates.offsets[row + 1];
-  if (with.near.size() < end - begin) with.near.resize(end - begin);
+  const std::span<const EntryId> masters = candidates.mastersOf(row);
+  if (with.near.size() < masters.size()) with.near.resize(masters.size());
   std::size_t count = 0;
   double far = INFINITY;
-  for (std::uint32_t c = begin; c < end; ++c) {
-    const EntryId master = candidates.masters[c];
+  for (const EntryId master : masters) {
     const MovingPiece& piece = pieces_[master];
     const double distance = piece.distance(at);
     const bool isNear = (distance <= wide) | static_cast<bool>(piece.isArc);
@@ -146,12 +144,11 @@ void RowFinder::meet(EntryId slave, EntryId corner, Vec2 from, Visit& with) cons
 
 /// True if a near corner is met when the slave is visited.
 bool RowFinder::meets(EntryId slave, EntryId corner, const Candidates& candidates) const {
-  const std::uint32_t row = rowOf_[slave.value];
-  if (row == kNone) return false;
-  const auto begin = candidates.masters.begin() + candidates.offsets[row];
-  const auto end = candidates.masters.begin() + candidates.offsets[row + 1];
+  const std::uint32_t row = candidates.rowOf(slave);
+  if (row == Candidates::kNone) return false;
+  const std::span<const EntryId> masters = candidates.mastersOf(row);
   const auto sees = [&](EntryId piece) {
-    return pieces_[piece].isArc == 0 && std::binary_search(begin, end, piece);
+    return pieces_[piece].isArc == 0 && std::ranges::binary_search(masters, piece);
   };
   return sees(corner) || sees(pieces_[corner].prev());
 }

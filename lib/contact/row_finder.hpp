@@ -29,14 +29,13 @@ class RowFinder {
   /// moved so far.
   [[nodiscard]] static bool mayFind(const Candidates& candidates, const ContactSizes& sizes,
                                     double travelled);
-  /// The rows of all candidates, in the order of their slaves; valid until the next call. The
+  /// The rows of all indexed candidates, in their order; valid until the next call. The
   /// result is the same for any number of threads. Sets the distances of the candidates.
   std::vector<NearRow>& find(Candidates& candidates, const ContactSurfaces& surfaces,
                              const Positions& positions, const ContactSizes& sizes,
                              double travelled, int threads);
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
   /// What one thread needs.
   struct Visit {
     const Candidates& candidates;
@@ -57,7 +56,6 @@ class RowFinder {
   [[nodiscard]] bool meets(EntryId slave, EntryId corner, const Candidates& candidates) const;
 
   MovingPieces pieces_;
-  std::vector<std::uint32_t> rowOf_;  // by entry: its row of the candidates, or none
   std::vector<PartList<NearRow>> parts_;
   std::vector<NearRow> rows_;
 };

@@ -60,7 +60,11 @@ std::array<double, 3> stressOf(const Model& model, ElementId element, double dt)
     const PlaneStress t(state.trial, state.mean, state.kept, SolidModuli(body.material).shear);
     return {t.xx / volume, t.yy / volume, t.xy / volume};
   }
-  return cauchy(deformationGradient(model, element), Moduli(model.materialOf(element).material));
+  return elasticStressOf(model, element, Moduli(model.materialOf(element).material));
+}
+
+std::array<double, 3> elasticStressOf(const Model& model, ElementId element, const Moduli& moduli) {
+  return cauchy(deformationGradient(model, element), moduli);
 }
 
 std::array<double, 3> strainRateOf(const Model& model, ElementId element) {

@@ -35,6 +35,8 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 /// (Pa) Cauchy stress xx, yy, xy of the F of one element, without strain smoothing. Cracks average
 /// it over the elements at a node, which is a smoothing of its own. `dt`: as below.
 std::array<double, 3> stressOf(const Model& model, ElementId element, double dt = 0);
+/// The same of an elastic element with these moduli.
+std::array<double, 3> elasticStressOf(const Model& model, ElementId element, const Moduli& moduli);
 
 /// (1/s) Rate of deformation xx, yy, xy of one element: the symmetric part of ḞF⁻¹.
 std::array<double, 3> strainRateOf(const Model& model, ElementId element);

@@ -41,7 +41,7 @@ std::vector<EdgeId> StrengthCheck::weaken(const Model& model, CrackEdges& edges,
                                           std::span<const ElementRange> where, const StepTime& step,
                                           std::vector<double>& leastStrength) {
   if (model.triangles.plastic.damage.empty()) return {};
-  prepare(model, edges);
+  resize(model, edges);
   ++call_;
   step_ = step;
   weakened_.clear();
@@ -56,6 +56,9 @@ std::vector<EdgeId> StrengthCheck::weaken(const Model& model, CrackEdges& edges,
     double& least =
         leastStrength[model.triangles.component[edges.element[one.edge.value][0].value].value];
     least = std::min(least, strength);
+    const Side side = edges.side(one.edge, 0);
+    for (const NodeId node : {firstNode(model, side), lastNode(model, side)})
+      weakest_[node.value] = std::min(weakest_[node.value], strength);
     changed.push_back(one.edge);
   }
   sortUnique(changed);

@@ -61,7 +61,7 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
     return false;
   }
   weakened_ = check_.weaken(model, edges, where, step, leastStrength);
-  cracks_ = check_.overstressed(model, edges, where, leastStrength, step, overloads);
+  cracks_ = check_.overstressed(model, edges, where, step, overloads);
   if (cracks_.size() > maxCracks - numCracks_) cracks_.resize(maxCracks - numCracks_);
   if (cracks_.empty()) return false;
   numCracks_ += cracks_.size();
@@ -70,6 +70,7 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
                 [&](const Overload& one) { return std::ranges::binary_search(cracks_, one.edge); });
   const YieldingSplit yielding(model, edges, cracks_, step.length);
   splitNodes(model, edges, surfaces, cracks_, result);
+  check_.follow(model, edges, cracks_, result.originals);
   yieldingGain_ = yielding.settle(model, result.originals, step.length);
   return !result.sides.empty();
 }

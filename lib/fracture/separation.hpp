@@ -28,7 +28,10 @@ struct Traction {
 /// for σₙ = 0. An edge opens if this reaches its strength.
 [[nodiscard]] inline double effectiveTraction(double normal, double shear,
                                               const BrittleMaterial& material, double friction) {
-  if (normal >= 0) return std::hypot(normal, shear / material.shearFactor);
+  if (normal >= 0) {
+    const double slip = shear / material.shearFactor;
+    return std::sqrt(normal * normal + slip * slip);
+  }
   return std::max(0., std::abs(shear) + friction * normal) / material.shearFactor;
 }
 
@@ -36,17 +39,26 @@ struct Traction {
 /// and radius r: √((c + r)² + ((r√(1 + μ²) + μc)/β)²), each term only if positive. The second term
 /// is the maximum of |τ| + μσₙ; |τ| is below it for σₙ ≥ 0, and so is |τ| − μ|σₙ| for σₙ < 0. The
 /// bound is convex: that of a mean of stresses does not exceed the largest of theirs.
-[[nodiscard]] inline double largestTraction(const std::array<double, 3>& stress,
-                                            const BrittleMaterial& material, double friction) {
-  const double centre = .5 * (stress[0] + stress[1]);
-  const double half = .5 * (stress[0] - stress[1]);
-  const double radius = std::sqrt(half * half + stress[2] * stress[2]);
-  const double tension = std::max(0., centre + radius);
-  const double shear =
-      std::max(0., radius * std::sqrt(1 + friction * friction) + friction * centre) /
-      material.shearFactor;
-  return std::sqrt(tension * tension + shear * shear);
-}
+class LargestTraction {
+ public:
+  LargestTraction(const BrittleMaterial& material, double friction)
+      : friction_(friction),
+        incline_(std::sqrt(1 + friction * friction)),
+        weight_(1 / (material.shearFactor * material.shearFactor)) {}
+  /// (Pa²)
+  [[nodiscard]] double squared(const std::array<double, 3>& stress) const {
+    const double centre = .5 * (stress[0] + stress[1]);
+    const double half = .5 * (stress[0] - stress[1]);
+    const double radius = std::sqrt(half * half + stress[2] * stress[2]);
+    const double tension = std::max(0., centre + radius);
+    const double shear = std::max(0., radius * incline_ + friction_ * centre);
+    return tension * tension + weight_ * shear * shear;
+  }
+
+ private:
+  double friction_, incline_;  // μ, √(1 + μ²)
+  double weight_;              // 1/β²
+};
 
 /// (1/s) Rate of the strain in the direction of the largest principal stress, from the rate of
 /// deformation (1/s: xx, yy, xy); negative while the material shortens there. Where all directions

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "core/tolerances/fracture.hpp"
 #include "dynamics/element_state.hpp"
@@ -20,11 +21,6 @@ bool haveSeveralMaterials(const Model& model, std::span<const ElementId> element
                              [&](ElementId e) { return number(e) != number(elements.front()); });
 }
 
-/// True if tips of cracks count, which hold below the strength.
-bool mayHold(const Component& component) {
-  return component.brittle.fractureEnergy > 0 || component.brittleByPlace;
-}
-
 /// Of both ends of an edge.
 std::array<double, 3> meanOf(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return {.5 * (a[0] + b[0]), .5 * (a[1] + b[1]), .5 * (a[2] + b[2])};
@@ -34,10 +30,9 @@ std::array<double, 3> meanOf(const std::array<double, 3>& a, const std::array<do
 
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
                                                 std::span<const ElementRange> where,
-                                                std::span<const double> leastStrength,
                                                 const StepTime& step,
                                                 std::vector<Overload>& overloads) {
-  prepare(model, edges);
+  resize(model, edges);
   ++call_;
   found_.clear();
   over_.clear();
@@ -46,51 +41,43 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   // The stress of a checked node is needed for all edges that end there, of any triangle.
   for (const ElementRange& range : where)
     for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      if (!model.triangles.isDropped(e)) checkCorners(model, edges, ElementId(e), leastStrength);
+      if (!model.triangles.isDropped(e)) checkCorners(model, edges, ElementId(e));
   std::ranges::sort(over_, {}, &Overload::edge);
   overloads.swap(over_);
   return pickApart(model, edges);
 }
 
 /// Most stressed elements in rubble have no edge left that could crack. The largest traction is a
-/// convex function of the stress: where a mean over elements reaches the strength, one of them
-/// does.
-void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
-                                 std::span<const double> leastStrength) {
-  std::array<bool, 3> whole{};
-  for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
-  if (whole == std::array<bool, 3>{}) return;
-  const ComponentId body = model.triangles.component[element.value];
-  const Component& component = model.components[body.value];
-  if (!mayHold(component) && !component.isMixed() &&
-      largestTraction(stressOf(model, element), component.brittle, component.friction) <
-          tolerance::kNearlyStrength * leastStrength[body.value])
-    return;
-  for (std::uint8_t i = 0; i < 3; ++i)
-    if (whole[i] || whole[beforeCorner(i)])
-      checkNode(model, edges, model.triangles.nodes[element.value][i], leastStrength);
+/// convex function of the stress: where a mean over elements reaches the strength of an edge, one
+/// of them does.
+void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element) {
+  const auto& nodes = model.triangles.nodes[element.value];
+  const auto weakestAt = [&](NodeId node) { return weakest_[node.value]; };
+  const double weakest = std::min({weakestAt(nodes[0]), weakestAt(nodes[1]), weakestAt(nodes[2])});
+  if (weakest == INFINITY) return;
+  const Law& law = laws_[model.triangles.component[element.value].value];
+  double squared = INFINITY;
+  if (!law.mayHold && !law.isMixed) squared = law.largest.squared(stressOf(model, element));
+  for (const NodeId node : nodes) {
+    const double nearly = tolerance::kNearlyStrength * weakestAt(node);
+    if (nearly < INFINITY && squared >= nearly * nearly) checkNode(model, edges, node);
+  }
 }
 
-void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node,
-                              std::span<const double> leastStrength) {
+void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node) {
   assert(node.value < nodeTested_.size());
   if (nodeTested_[node.value] == call_) return;
   nodeTested_[node.value] = call_;
   // At one end of an edge, at least, the traction is not less than their mean: check the ends
   // first. Where materials meet, a node's mean is not that of its edges.
-  const ComponentId body = model.nodes.component[node.value];
-  const Component& component = model.components[body.value];
-  const double most =
-      largestTraction(stressAt(model, edges, node), component.brittle, component.friction);
-  const bool isWeak = most >= leastStrength[body.value];
-  if (!isWeak && !mayHold(component)) return;
-  if (!isWeak && isInside_[node.value] != 0 && !model.bodyOf(edges.ofNode[node.value]).isMixed())
-    return;
-  around_.clear();
-  (void)edges.appendFan(model, node, around_);
-  if (!isWeak && !haveSeveralMaterials(model, around_) &&
-      (isInside_[node.value] != 0 || !isTip(model, around_, node)))
-    return;
+  const Law& law = laws_[model.nodes.component[node.value].value];
+  const double nearly = tolerance::kNearlyStrength * weakest_[node.value];
+  const bool isWeak = law.largest.squared(stressAt(model, edges, node)) >= nearly * nearly;
+  if (!isWeak && !law.mayHold) return;
+  const Fan& fan = fanAt(model, edges, node);
+  if (!isWeak && fan.isRing && !law.isMixed) return;
+  around_.assign(elementsOf(fan).begin(), elementsOf(fan).end());
+  if (!isWeak && !haveSeveralMaterials(model, around_) && !isTipAt(model, edges, node)) return;
   for (const ElementId element : around_) {
     const int corner = cornerOf(model, element, node);
     for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
@@ -105,6 +92,86 @@ void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeI
 }
 
 void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
+  laws_.clear();
+  for (const Component& body : model.components)
+    laws_.push_back({Moduli(body.material), LargestTraction(body.brittle, body.friction),
+                     !body.isMixed() && !body.yields(),
+                     body.brittle.fractureEnergy > 0 || body.brittleByPlace, body.isMixed()});
+  weakest_.assign(model.nodes.size(), INFINITY);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.cracked[e] != 0) continue;
+    const Side side = edges.side(EdgeId(e), 0);
+    for (const NodeId node : {firstNode(model, side), lastNode(model, side)})
+      weakest_[node.value] = std::min(weakest_[node.value], edges.strength[e]);
+  }
+  fanOf_.assign(model.nodes.size(), {});
+  fans_.clear();
+  resize(model, edges);
+}
+
+void StrengthCheck::follow(const Model& model, const CrackEdges& edges,
+                           std::span<const EdgeId> cracks, std::span<const NodeId> originals) {
+  weakest_.resize(model.nodes.size());
+  fanOf_.resize(model.nodes.size());
+  for (const EdgeId edge : cracks)
+    for (const int which : {0, 1}) {
+      update(model, edges, firstNode(model, edges.side(edge, which)));
+      update(model, edges, lastNode(model, edges.side(edge, which)));
+    }
+  const std::size_t firstNew = model.nodes.size() - originals.size();
+  for (std::size_t i = 0; i < originals.size(); ++i) {
+    update(model, edges, originals[i]);
+    update(model, edges, NodeId(firstNew + i));
+  }
+}
+
+/// After a crack at the node.
+void StrengthCheck::update(const Model& model, const CrackEdges& edges, NodeId node) {
+  fan_.clear();
+  Fan& fan = fanOf_[node.value];
+  fan.isRing = edges.appendFan(model, node, fan_);
+  // A fan never grows: it keeps its place.
+  assert(fan.begin == kUnknown || fan_.size() <= fan.count);
+  if (fan.begin == kUnknown) {
+    fan.begin = static_cast<std::uint32_t>(fans_.size());
+    fans_.resize(fans_.size() + fan_.size());
+  }
+  fan.count = static_cast<std::uint32_t>(fan_.size());
+  std::ranges::copy(fan_, fans_.begin() + fan.begin);
+  double least = INFINITY;
+  for (const ElementId element : fan_) {
+    const int corner = cornerOf(model, element, node);
+    for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
+      const EdgeId edge = edges.ofElement[element.value][static_cast<std::size_t>(side)];
+      if (edge != EdgeId::none() && edges.cracked[edge.value] == 0)
+        least = std::min(least, edges.strength[edge.value]);
+    }
+  }
+  weakest_[node.value] = least;
+}
+
+/// Valid until the next call.
+const StrengthCheck::Fan& StrengthCheck::fanAt(const Model& model, const CrackEdges& edges,
+                                               NodeId node) {
+  Fan& fan = fanOf_[node.value];
+  if (fan.begin == kUnknown) {
+    fan.begin = static_cast<std::uint32_t>(fans_.size());
+    fan.isRing = edges.appendFan(model, node, fans_);
+    fan.count = static_cast<std::uint32_t>(fans_.size()) - fan.begin;
+  }
+  return fan;
+}
+
+/// True at the tip of a notch or a crack.
+bool StrengthCheck::isTipAt(const Model& model, const CrackEdges& edges, NodeId node) {
+  (void)fanAt(model, edges, node);
+  Fan& fan = fanOf_[node.value];
+  if (fan.isRing) return false;
+  if (std::exchange(fan.tested, call_) != call_) fan.isTip = isTip(model, elementsOf(fan), node);
+  return fan.isTip;
+}
+
+void StrengthCheck::resize(const Model& model, const CrackEdges& edges) {
   elementSeen_.resize(model.triangles.size());
   elementStress_.resize(model.triangles.size());
   const std::size_t room = model.nodes.position.capacity();
@@ -112,8 +179,8 @@ void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
   nodeStress_.reserve(room);
   nodeSeen_.resize(model.nodes.size());
   nodeStress_.resize(model.nodes.size());
-  isInside_.reserve(room);
-  isInside_.resize(model.nodes.size());
+  weakest_.reserve(room);
+  fanOf_.reserve(room);
   nodeTaken_.resize(model.nodes.size());
   nodeTested_.resize(model.nodes.size());
   edgeSeen_.resize(edges.size());
@@ -123,7 +190,9 @@ const StrengthCheck::Stress& StrengthCheck::stressOf(const Model& model, Element
   Stress& stress = elementStress_[element.value];
   if (elementSeen_[element.value] == call_) return stress;
   elementSeen_[element.value] = call_;
-  return stress = yadefrag::stressOf(model, element, step_.length);
+  const Law& law = laws_[model.triangles.component[element.value].value];
+  return stress = law.isElastic ? elasticStressOf(model, element, law.moduli)
+                                : yadefrag::stressOf(model, element, step_.length);
 }
 
 const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const CrackEdges& edges,
@@ -152,11 +221,9 @@ std::array<double, 3> StrengthCheck::meanOfMaterials(const Model& model, const C
 template <class Counts, class Of>
 std::array<double, 3> StrengthCheck::meanAt(const Model& model, const CrackEdges& edges,
                                             NodeId node, Counts counts, Of of) {
-  fan_.clear();
-  isInside_[node.value] = edges.appendFan(model, node, fan_) ? 1 : 0;
   std::array<double, 3> mean{};
   double whole = 0;
-  for (const ElementId element : fan_) {
+  for (const ElementId element : elementsOf(fanAt(model, edges, node))) {
     if (!counts(element)) continue;
     const double area = model.triangles.area[element.value];
     const std::array<double, 3> value = of(element);
@@ -253,8 +320,9 @@ bool StrengthCheck::raise(const Model& model, CrackEdges& edges,
 double StrengthCheck::tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge,
                                     NodeId node) {
   if (model.nodes.held[node.value] != kFree) return 0;
-  fan_.clear();
-  if (edges.appendFan(model, node, fan_) || !isTip(model, fan_, node)) return 0;
+  if (!isTipAt(model, edges, node)) return 0;
+  const auto fan = elementsOf(fanAt(model, edges, node));
+  fan_.assign(fan.begin(), fan.end());
   const Traction traction = tipTraction(model, edges, edge, node, fan_);
   const double strength = edges.strength[edge.value];
   if (traction.normal >= strength) return traction.normal;

@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "dynamics/element_kernel.hpp"
+#include "dynamics/element_state.hpp"
 #include "fracture/crack_edges.hpp"
+#include "fracture/separation.hpp"
 
 namespace yadefrag {
 
@@ -39,8 +41,7 @@ class StrengthCheck {
   /// opening unloads the others. `overloads`: of materials with a rate effect, by edge, ascending;
   /// those after the last step become those after this one.
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
-                                   std::span<const ElementRange> where,
-                                   std::span<const double> leastStrength, const StepTime& step,
+                                   std::span<const ElementRange> where, const StepTime& step,
                                    std::vector<Overload>& overloads);
   /// Multiplies strength and energy of the given edges, found by the last call of `overstressed`,
   /// by the factors of their strain rates. Returns true if any changed.
@@ -51,8 +52,11 @@ class StrengthCheck {
   std::vector<EdgeId> weaken(const Model& model, CrackEdges& edges,
                              std::span<const ElementRange> where, const StepTime& step,
                              std::vector<double>& leastStrength);
-  /// Reserves memory for all that may be checked.
+  /// After bodies were added or removed: reserves memory for all that may be checked.
   void prepare(const Model& model, const CrackEdges& edges);
+  /// After these edges have cracked. `originals` as in SplitResult.
+  void follow(const Model& model, const CrackEdges& edges, std::span<const EdgeId> cracks,
+              std::span<const NodeId> originals);
 
  private:
   using Stress = std::array<double, 3>;
@@ -67,10 +71,32 @@ class StrengthCheck {
     double strength;  // Pa
   };
 
-  void checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
-                    std::span<const double> leastStrength);
-  void checkNode(const Model& model, const CrackEdges& edges, NodeId node,
-                 std::span<const double> leastStrength);
+  /// Constants of a body.
+  struct Law {
+    Moduli moduli;
+    LargestTraction largest;
+    bool isElastic;  // all of it, of one material
+    bool mayHold;    // tips of cracks count, which hold below the strength
+    bool isMixed;
+  };
+  /// The triangles around a node.
+  struct Fan {
+    std::uint32_t begin = kUnknown;  // in `fans_`
+    std::uint32_t count = 0;
+    std::uint32_t tested = 0;  // the call in which `isTip` was found
+    bool isRing = false, isTip = false;
+  };
+  static constexpr std::uint32_t kUnknown = 0xffffffff;
+
+  void resize(const Model& model, const CrackEdges& edges);
+  void update(const Model& model, const CrackEdges& edges, NodeId node);
+  bool isTipAt(const Model& model, const CrackEdges& edges, NodeId node);
+  const Fan& fanAt(const Model& model, const CrackEdges& edges, NodeId node);
+  [[nodiscard]] std::span<const ElementId> elementsOf(const Fan& fan) const {
+    return std::span(fans_).subspan(fan.begin, fan.count);
+  }
+  void checkCorners(const Model& model, const CrackEdges& edges, ElementId element);
+  void checkNode(const Model& model, const CrackEdges& edges, NodeId node);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   template <class Counts, class Of>
@@ -93,7 +119,11 @@ class StrengthCheck {
   std::uint32_t call_ = 0;
   std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeTested_;
   std::vector<Stress> elementStress_, nodeStress_;  // Pa: xx, yy, xy
-  std::vector<std::uint8_t> isInside_;  // by node whose mean is known: 1 if its fan is a ring
+  std::vector<Law> laws_;                           // by component
+  // Pa, by node: least strength of the edges there that have not cracked; infinite without any.
+  std::vector<double> weakest_;
+  std::vector<Fan> fanOf_;  // by node, as soon as it has been checked
+  std::vector<ElementId> fans_;
   std::vector<ElementId> fan_, around_;
   std::vector<Overstressed> found_;
   std::vector<Weakened> weakened_;

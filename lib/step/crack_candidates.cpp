@@ -9,7 +9,7 @@
 
 namespace yadefrag {
 
-std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candidates& candidates,
+std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, Candidates& candidates,
                                    std::span<const SurfaceSide> sides) {
   std::vector<EntryId> own;
   for (const SurfaceSide& side : sides) {
@@ -19,16 +19,13 @@ std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candid
     for (int k = 0; k < 6; ++k, at = surfaces.next[at.value]) own.push_back(at);
   }
   sortUnique(own);
-  const auto isOwn = [&](EntryId entry) {
-    return std::binary_search(own.begin(), own.end(), entry);
-  };
   std::vector<EntryId> around(own);
-  for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
-    const bool ownSlave = isOwn(candidates.slaves[r]);
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-      if (ownSlave) around.push_back(candidates.masters[c]);
-      if (isOwn(candidates.masters[c])) around.push_back(candidates.slaves[r]);
-    }
+  for (const EntryId entry : own) {
+    candidates.appendSlavesOf(entry, around);
+    const std::uint32_t row = candidates.rowOf(entry);
+    if (row == Candidates::kNone) continue;
+    const auto masters = candidates.mastersOf(row);
+    around.insert(around.end(), masters.begin(), masters.end());
   }
   sortUnique(around);
   return around;

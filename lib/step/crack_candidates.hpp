@@ -11,8 +11,8 @@
 namespace yadefrag {
 
 /// The entries of `sides`, of the segments before and after them, and all candidates of any of
-/// these: ascending.
-std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candidates& candidates,
+/// these: ascending. The candidates are indexed.
+std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, Candidates& candidates,
                                    std::span<const SurfaceSide> sides);
 
 /// Pairs of these entries whose boxes, enlarged by half the halo, overlap.

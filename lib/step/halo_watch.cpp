@@ -41,6 +41,7 @@ void HaloWatch::rebuild(const Scene& scene) {
   }
   scene.dynamics.setSpeedLimit(scene.canTouch ? bounds.speed : tolerance::kMostSpeed);
   search_.reset();
+  scene.contact.candidates.index(scene.surfaces.entries());
   motion_.farthest = bounds.farthest;
 }
 
@@ -162,6 +163,7 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
               pairs_);
   former_.candidates = replaceCandidates(scene.contact.candidates, pairs_);
   former_.hasCandidates = true;
+  scene.contact.candidates.index(scene.surfaces.entries());
   positions.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     positions[i] = scene.model.nodes.position[nodes[i].value];
@@ -224,12 +226,15 @@ void HaloWatch::removeDropped(const Model& model) {
   positions.resize(kept);
 }
 
-void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const EntryId> around) {
+void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const SurfaceSide> sides) {
   const std::vector<Vec2>& places = scene.model.nodes.position;
+  scene.contact.candidates.index(scene.surfaces.entries());
+  const std::vector<EntryId> around =
+      entriesAround(scene.surfaces, scene.contact.candidates, sides);
   pairs_.clear();
   selectPairs(scene.model, scene.surfaces, passRule_, places, halo,
               overlapsAmong(scene.surfaces, places, around, halo), pairs_);
-  addCandidates(scene.contact.candidates, pairs_);
+  addCandidates(scene.contact.candidates, pairs_, around);
 }
 
 }  // namespace yadefrag

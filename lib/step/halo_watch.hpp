@@ -17,6 +17,7 @@
 #include "contact/pass_rule.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "search/contact_search.hpp"
+#include "surface/relink.hpp"
 
 namespace yadefrag {
 
@@ -99,8 +100,9 @@ class HaloWatch : public SearchState {
   void removeDropped(const Model& model);
   /// A node, at `place` (m), is on the surface from now on.
   void appear(NodeId node, Vec2 place);
-  /// Adds candidates among entries around a crack.
-  void addCandidatesAround(const Scene& scene, std::span<const EntryId> around);
+  /// Adds candidates among the new faces and all entries near them: a slave within the halo of an
+  /// old piece beside the crack may be in the halo of a new one.
+  void addCandidatesAround(const Scene& scene, std::span<const SurfaceSide> sides);
 
   [[nodiscard]] SearchBounds bounds(const ExplicitDynamics& dynamics) const {
     return {motion_.farthest, dynamics.speedLimit()};

@@ -4,8 +4,6 @@
 #include <cassert>
 
 #include "fracture/brittle_checks.hpp"
-#include "step/crack_candidates.hpp"
-#include "step/entry_pairs.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -65,10 +63,7 @@ void World::followSplit() {
   for (const SurfaceSide& side : split_.sides)
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
-  // New faces, and all entries near them: a slave within the halo of an old piece beside the crack
-  // may be in the halo of a new one.
-  search.addCandidatesAround(searchScene(),
-                             entriesAround(surfaces, contact.candidates, split_.sides));
+  search.addCandidatesAround(searchScene(), split_.sides);
   assert(haveLength(model.nodes.columns(), count) && surfaces.nodeSegment.size() == count);
 }
 

@@ -91,9 +91,9 @@ void World::requireResolvedMotion(double dt) {
   const Candidates& candidates = contact.candidates;
   double most = 0;
   EntryId fastest;
-  for (std::size_t row = 0; row < candidates.slaves.size(); ++row)
-    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
-      const EntryId slave = candidates.slaves[row], master = candidates.masters[c];
+  for (const std::uint32_t row : candidates.rows())
+    for (const EntryId master : candidates.mastersOf(row)) {
+      const EntryId slave = candidates.slaves[row];
       const double length = std::min(chord(free.ends(slave)), chord(free.ends(master)));
       const double motion = relativeMotion(before, now, slave, master) / length;
       if (motion > most) most = motion, fastest = slave;

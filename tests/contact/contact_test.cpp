@@ -30,6 +30,7 @@ struct ContactScene {
     model.components.resize(scene.components);
     for (Component& component : model.components) component.friction = friction;
     replaceCandidates(contact.candidates, pairs);
+    contact.candidates.index(scene.surfaces.entries());
   }
   void hold(EntryId first, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) model.nodes.held[nodeOf(first + k)] = kHeldXY;
@@ -69,16 +70,18 @@ TEST(Contact, ACorrectionOfManySegmentsIsRefused) {
 
 // --- Rows of candidates.
 
-/// Ascending, if the rows are as they must be.
+/// Of the rows that no later one has replaced: ascending.
 std::vector<SlaveMaster> pairsIn(const Candidates& candidates) {
   std::vector<SlaveMaster> pairs;
   EXPECT_EQ(candidates.offsets.size(), candidates.slaves.size() + 1);
   EXPECT_EQ(candidates.offsets.back(), candidates.masters.size());
   for (std::size_t row = 0; row < candidates.slaves.size(); ++row) {
     EXPECT_LT(candidates.offsets[row], candidates.offsets[row + 1]);
-    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c)
-      pairs.push_back({candidates.slaves[row], candidates.masters[c]});
+    EXPECT_TRUE(std::ranges::is_sorted(candidates.mastersOf(row)));
   }
+  for (const std::uint32_t row : candidates.rows())
+    for (const EntryId master : candidates.mastersOf(row))
+      pairs.push_back({candidates.slaves[row], master});
   return pairs;
 }
 
@@ -97,19 +100,30 @@ TEST(Candidates, RowsContainTheGivenPairs) {
     return pairs;
   };
   Candidates candidates;
+  std::vector<EntryId> entries;
+  for (std::size_t e = 0; e < scene.surfaces.entries(); ++e) entries.emplace_back(e);
   std::vector<SlaveMaster> former;
   for (int round = 0; round < 200; ++round) {
     std::vector<SlaveMaster> pairs = round % 20 == 7 ? anyOf(1) : anyOf(3), more = anyOf(2);
-    const Candidates replaced = replaceCandidates(candidates, pairs);
+    Candidates replaced = replaceCandidates(candidates, pairs);
     if (round > 0) {
       ASSERT_EQ(pairsIn(replaced), former);
     }
+    candidates.index(scene.surfaces.entries());
     ASSERT_EQ(pairsIn(candidates), pairs) << "sorted by the call";
-    addCandidates(candidates, more);
+    addCandidates(candidates, more, entries);
     former.clear();
     std::set_union(pairs.begin(), pairs.end(), more.begin(), more.end(),
                    std::back_inserter(former));
     ASSERT_EQ(pairsIn(candidates), former);
+    for (const EntryId master : entries) {
+      std::vector<EntryId> found, wanted;
+      candidates.appendSlavesOf(master, found);
+      for (const SlaveMaster& pair : former)
+        if (pair.master == master) wanted.push_back(pair.slave);
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found, wanted);
+    }
   }
 }
 
