@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "core/ids.hpp"
@@ -40,7 +41,15 @@ struct ContactRow {
 
   [[nodiscard]] Vec2 tangent() const { return {-normal.y, normal.x}; }
   [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * tangent(); }
-  void add(const Stencil& stencil, double sign);
+  void add(const Stencil& stencil, double sign) {
+    for (int k = 0; k < stencil.count; ++k) {
+      if (stencil.weight[k] == 0) continue;
+      assert(count < static_cast<int>(node.size()));
+      const auto at = static_cast<std::size_t>(count++);
+      node[at] = stencil.node[k];
+      weight[at] = sign * stencil.weight[k];
+    }
+  }
   /// True for a node that moves with the row's rigid part.
   [[nodiscard]] bool isOfRigid(const Nodes& nodes, NodeId at) const {
     return rigid.mass != kNone && nodes.held[at.value] == kHeldXY;

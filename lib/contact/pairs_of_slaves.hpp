@@ -8,6 +8,13 @@
 
 namespace yadefrag {
 
+/// Data of a row with a force that are stored for the next step.
+struct Touch {
+  SlaveMaster pair;
+  double normalForce, tangentForce;  ///< N, start values of the next solution
+  double toleratedGap;               ///< m, ≤ 0: the overlap that the row has left
+};
+
 /// A list of pairs with chains by slave. Nothing is cleared by entry: an index in `first_` is valid
 /// if the pair there has that slave.
 class PairsOfSlaves {

@@ -2,7 +2,6 @@
 // All tolerances and thresholds of the project, each with its unit and its reason. A source file
 // includes only the parts that it uses, so that a changed constant rebuilds little.
 
-#include "core/tolerances/barrier.hpp"
 #include "core/tolerances/collider.hpp"
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/dynamics.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/parallel.hpp"
-#include "core/tolerances/barrier.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 

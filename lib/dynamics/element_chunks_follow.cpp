@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 
 #include "dynamics/element_chunks.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 

@@ -44,7 +44,7 @@ class Cohesion final : public CoupledForces {
   /// stored openings of the cracks change only in `settle`.
   void correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
-  // While contact is solved (cohesion_coupled.cpp):
+  // While contact is solved:
   [[nodiscard]] std::uint32_t groupOf(NodeId node) const override;
   void begin(std::span<const Vec2> position) override;
   void noteMoved(NodeId node) override;

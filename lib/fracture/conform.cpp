@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "core/tolerances/fracture.hpp"
-#include "fracture/side_lines.hpp"
+#include "fracture/bonds.hpp"
 
 namespace yadefrag {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "dynamics/yielding_state.hpp"
 #include "fracture/edge_material.hpp"

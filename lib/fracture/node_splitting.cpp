@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 
 namespace yadefrag {
 namespace {

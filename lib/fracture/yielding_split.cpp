@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/yielding_state.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "search/overlapping_pairs.hpp"
+#include "search/contact_search.hpp"
 
 namespace yadefrag {
 namespace {

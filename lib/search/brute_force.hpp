@@ -1,7 +1,6 @@
 #pragma once
 // Tests every box against every other: the reference for all other searches.
 
-#include "search/box_count.hpp"
 #include "search/contact_search.hpp"
 
 namespace yadefrag {

@@ -1,6 +1,8 @@
 #pragma once
 // The common interface of all searches. Input: boxes; output: overlapping pairs.
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
@@ -13,6 +15,16 @@
 #include "core/parallel.hpp"
 
 namespace yadefrag {
+
+/// (count) Maximum of a search. Slots are 32-bit numbers of which the directory and the tree use
+/// one bit as a flag.
+inline constexpr std::size_t kMostBoxes = (std::size_t{1} << 31) - 1;
+
+/// Throws RunError for more boxes than kMostBoxes.
+inline void checkBoxCount(std::size_t count) {
+  if (count > kMostBoxes)
+    throw RunError("A search takes 2147483647 boxes at most, periodic copies included.");
+}
 
 /// Thrown by `findPairs` if there are more pairs than `setMostPairs` permits.
 class TooManyPairs : public RunError {
@@ -82,5 +94,16 @@ enum class SearchMethod {
 };
 
 std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);
+
+/// For a single query: no data are kept for later ones.
+[[nodiscard]] inline std::vector<BoxPair> overlappingPairs(
+    std::span<const Box> boxes, int threads = 1, SearchMethod method = SearchMethod::kLebesgue) {
+  const std::unique_ptr<ContactSearch> search = makeSearch(method);
+  search->setThreads(threads);
+  search->update(boxes);
+  std::vector<BoxPair> pairs;
+  search->findPairs(pairs);
+  return pairs;
+}
 
 }  // namespace yadefrag

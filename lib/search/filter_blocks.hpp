@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/growth.hpp"
+#include "core/arrays.hpp"
 #include "core/instruction_set.hpp"
 #include "curve/numbering.hpp"
 #include "search/filter_box.hpp"

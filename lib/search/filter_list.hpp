@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/growth.hpp"
+#include "core/arrays.hpp"
 #include "search/filter_box.hpp"
 
 namespace yadefrag {

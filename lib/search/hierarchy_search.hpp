@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "search/box_count.hpp"
 #include "search/contact_search.hpp"
 #include "search/hierarchy.hpp"
 #include "search/search_plan.hpp"

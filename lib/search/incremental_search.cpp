@@ -5,7 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "core/tolerances/search.hpp"
-#include "search/box_count.hpp"
+#include "search/contact_search.hpp"
 
 namespace yadefrag {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <type_traits>
 
-#include "search/box_count.hpp"
 #include "search/code_search.hpp"
+#include "search/contact_search.hpp"
 
 namespace yadefrag {
 

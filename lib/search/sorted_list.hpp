@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/growth.hpp"
+#include "core/arrays.hpp"
 
 namespace yadefrag {
 

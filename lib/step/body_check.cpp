@@ -1,5 +1,3 @@
-#include "step/body_check.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/sort_unique.hpp"
-#include "search/overlapping_pairs.hpp"
+#include "core/arrays.hpp"
+#include "search/contact_search.hpp"
 #include "step/entry_pairs.hpp"
 
 namespace yadefrag {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "contact/contact_settings.hpp"
 #include "contact/pass_rule.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "search/contact_search.hpp"

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "core/arrays.hpp"
 #include "core/errors.hpp"
-#include "core/sort_unique.hpp"
 
 namespace yadefrag {
 namespace {

@@ -1,16 +1,44 @@
 #pragma once
-// Checks whether a new body overlaps others. Contact only prevents new overlaps, and would not
-// detect existing ones.
+// New bodies beside those that are there: whether they overlap, which contact would not detect,
+// since it only prevents new overlaps, and outlines moved onto bodies that they are to touch.
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/box.hpp"
 #include "core/errors.hpp"
 #include "core/ids.hpp"
+#include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "step/body_places.hpp"
+#include "outline/snap.hpp"
+#include "surface/contact_surface.hpp"
 
 namespace yadefrag {
+
+/// Boxes and boundary segments by component. They are valid as long as nothing moves: bodies are
+/// usually added in sequence, and each one then causes only its own cost.
+class BodyPlaces {
+ public:
+  /// Adds the bodies that were added since the last call.
+  void update(const Model& model, const ContactSurfaces& surfaces);
+  /// Must be called when bodies move or are removed.
+  void clear() { *this = {}; }
+
+  /// Absent for a removed body.
+  [[nodiscard]] const Box& box(ComponentId body) const { return boxes_[body.value]; }
+  [[nodiscard]] const std::vector<SegmentId>& segments(ComponentId body) const {
+    return segments_[body.value];
+  }
+
+ private:
+  std::vector<Box> boxes_;
+  std::vector<std::vector<SegmentId>> segments_;
+  std::size_t knownNodes_ = 0, knownSegments_ = 0;
+};
+
+/// Extends the box to contain a point.
+void include(Box& box, Vec2 point);
 
 struct Overlap {
   ComponentId body;  ///< the existing body
@@ -26,6 +54,7 @@ class OverlapError : public InputError {
 };
 
 struct BodySpec;
+class World;
 
 /// The place where the new body and existing ones overlap most, by more than rounding, at present
 /// positions. Depths are exact up to the length of the shortest side there. Bodies whose nodes are
@@ -33,5 +62,12 @@ struct BodySpec;
 std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& surfaces,
                                    const BodyPlaces& places, const TriangleMesh& mesh,
                                    const BodySpec& spec);
+
+/// Bodies with elements.
+[[nodiscard]] std::vector<ComponentId> bodiesOf(const Model& model);
+
+/// An outline moved onto the present boundaries of all bodies.
+[[nodiscard]] Snapped snapOnBodies(const World& world, const Polygon& polygon,
+                                   const SnapRule& rule);
 
 }  // namespace yadefrag

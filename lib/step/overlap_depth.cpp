@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/overlapping_pairs.hpp"
+#include "search/contact_search.hpp"
 
 namespace yadefrag {
 namespace {

@@ -1,10 +1,8 @@
-#include "step/state_check.hpp"
+#include "step/world.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "step/world.hpp"
 
 namespace yadefrag {
 namespace {

@@ -14,7 +14,6 @@
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
-#include "step/body_check.hpp"
 
 namespace yadefrag {
 

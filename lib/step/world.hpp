@@ -12,11 +12,12 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "contact/contact_settings.hpp"
 #include "contact/pass_rule.hpp"
 #include "core/stage_times.hpp"
+#include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
+#include "dynamics/plastic_flow.hpp"
 #include "dynamics/yielding_state.hpp"
 #include "fracture/bonds.hpp"
 #include "fracture/conform.hpp"
@@ -26,14 +27,33 @@
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
-#include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
 #include "step/halo_watch.hpp"
 #include "step/loads.hpp"
-#include "step/step_undo.hpp"
+#include "step/overlap_check.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
+
+/// A refused step changes nothing. All changes until then are undone: positions and velocities by
+/// ExplicitDynamics::takeBack, contact by Contact::takeBack, the search by HaloWatch::takeBack, all
+/// other data from here.
+///
+/// Rejected: a copy of the world. Large arrays are swapped with those that the step writes in any
+/// case, or kept when a search replaces them, so that a successful step only copies some numbers.
+struct StepUndo {
+  // --- completed stages of the step
+  bool hasMoved = false, hasCorrected = false;
+
+  // --- state at the begin of the step
+  EnergyLedger ledger;
+  EnergyWatch watch;
+  double stableStep = 0;  ///< s
+  BulkViscosity stableViscosity;
+  PlasticFlow::Steepness steepness;
+  double speedLimit = 0;     ///< m/s
+  std::vector<Vec2> driven;  ///< m/s, of nodes with a motion; empty until the step sets them
+};
 
 /// Properties of a body besides its mesh. Arrays are by node of the mesh; empty ones mean zeros.
 struct BodySpec : BodyMaterial {
@@ -276,5 +296,15 @@ class World {
   double droppedBelow_ = 0;  // m², no detached fragment is smaller; 0: unknown
   std::string broken_;       // reason why the state is invalid; empty: it is valid
 };
+
+/// Throws InputError, which states the invalid value and the valid range, unless every value is
+/// valid: finite, with the correct sign, one for each node of the mesh, and no triangle with a mass
+/// or stiffness out of range (body_check.cpp).
+void checkBody(const TriangleMesh& mesh, const BodySpec& spec);
+
+/// Returns an empty string if every array has its length, every index is in range, every list is
+/// consistently linked, and every divisor is positive and finite; otherwise the invalid part. For
+/// states from files (state_check.cpp).
+[[nodiscard]] std::string findInvalidPart(const World& world);
 
 }  // namespace yadefrag

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "step/coverage.hpp"
+#include "step/overlap_check.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "core/sort_unique.hpp"
+#include "core/arrays.hpp"
 #include "surface/bezier_arc.hpp"
 
 namespace yadefrag {

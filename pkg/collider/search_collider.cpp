@@ -11,7 +11,7 @@
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/running.hpp"
-#include "search/overlapping_pairs.hpp"
+#include "search/contact_search.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {

@@ -7,7 +7,7 @@
 
 #include "entries/plane.hpp"
 #include "search/contact_search.hpp"
-#include "step/body_places.hpp"
+#include "step/overlap_check.hpp"
 
 namespace yadefrag {
 namespace {

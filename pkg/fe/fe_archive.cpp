@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 #include "fe/column_archive.hpp"
-#include "step/state_check.hpp"
+#include "step/world.hpp"
 
 namespace yadefrag {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/tolerances/collider.hpp"
 #include "core/tolerances/step.hpp"
 #include "entries/plane.hpp"
-#include "step/body_places.hpp"
+#include "step/overlap_check.hpp"
 
 namespace yadefrag {
 namespace {

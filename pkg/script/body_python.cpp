@@ -6,7 +6,6 @@
 #include "script/calls.hpp"
 #include "script/definitions.hpp"
 #include "script/mesh_python.hpp"
-#include "step/coverage.hpp"
 #include "step/overlap_check.hpp"
 
 namespace yadefrag {

@@ -13,7 +13,7 @@
 
 #include "core/tolerances/search.hpp"
 #include "random_scenes.hpp"
-#include "search/box_count.hpp"
+#include "search/contact_search.hpp"
 #include "search/incremental_search.hpp"
 
 namespace yadefrag {
