@@ -12,9 +12,11 @@
 #include "contact/candidates.hpp"
 #include "contact/pass_rule.hpp"
 #include "core/box.hpp"
+#include "core/vec2.hpp"
 #include "mesh/model.hpp"
 #include "search/contact_search.hpp"
 #include "surface/contact_surface.hpp"
+#include "surface/relink.hpp"
 
 namespace yadefrag {
 
@@ -34,5 +36,16 @@ inline bool mayTouch(const Model& model, ComponentId a, ComponentId b) {
 void selectPairs(const Model& model, const ContactSurfaces& surfaces, const PassRule& rule,
                  std::span<const Vec2> positions, double halo, std::span<const BoxPair> overlapping,
                  std::vector<SlaveMaster>& pairs);
+
+// --- Candidates of new faces, without a search of the whole scene.
+
+/// The entries of `sides`, of the segments before and after them, and all candidates of any of
+/// these: ascending. The candidates are indexed.
+std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, Candidates& candidates,
+                                   std::span<const SurfaceSide> sides);
+
+/// Pairs of these entries whose boxes, enlarged by half the halo, overlap.
+std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                                   std::span<const EntryId> entries, double halo);
 
 }  // namespace yadefrag
