@@ -1,14 +1,108 @@
 #pragma once
+// The scene with its parts, YADE's class factory, and the class of `O` in Python.
 
-#include "abi/body.hpp"
-#include "abi/cell.hpp"
+#include <cmath>
+#include <list>
+
 #include "abi/engine.hpp"
-#include "abi/force_container.hpp"
 #include "abi/interaction.hpp"
+
+template <class T>
+class Singleton {
+ protected:
+  static T* self;
+
+ public:
+  static T& instance();  // YADE's library contains the two instantiations used
+};
 
 namespace yade {
 
-class EnergyTracker;
+// The periodic cell.
+class Cell : public Serializable {
+  Matrix3r _invTrsf;
+  Matrix3r _trsfInc;
+  Matrix3r _vGradTimesPrevH;
+  Vector3r _size;
+  Vector3r _cos;
+  Vector3r _refSize;
+  bool _hasShear;
+  Matrix3r _shearTrsf;
+  Matrix3r _unshearTrsf;
+  double _glShearTrsfMatrix[16];
+
+ public:
+  enum { HOMO_NONE = 0, HOMO_POS = 1, HOMO_VEL = 2, HOMO_VEL_2ND = 3 };
+
+  Matrix3r trsf;
+  Matrix3r refHSize;
+  Matrix3r hSize;
+  Matrix3r prevHSize;
+  Matrix3r velGrad;
+  Matrix3r nextVelGrad;
+  Matrix3r prevVelGrad;
+  int homoDeform;
+  bool velGradChanged;
+  bool flipFlippable;
+
+  Cell();
+  ~Cell() override;
+
+  const Vector3r& getSize() const { return _size; }
+  const Vector3r& getCos() const { return _cos; }
+  bool hasShear() const { return _hasShear; }
+  const Matrix3r& getShearTrsf() const { return _shearTrsf; }
+  const Matrix3r& getUnshearTrsf() const { return _unshearTrsf; }
+  Vector3r shearPt(const Vector3r& pt) const { return _shearTrsf * pt; }
+  Vector3r unshearPt(const Vector3r& pt) const { return _unshearTrsf * pt; }
+  Vector3r intrShiftPos(const Vector3i& cellDist) const { return hSize * cellDist.cast<Real>(); }
+
+  static Real wrapNum(const Real& x, const Real& size) {
+    int period;
+    return wrapNum(x, size, period);
+  }
+  static Real wrapNum(const Real& x, const Real& size, int& period) {
+    const Real cells = x / size;
+    const Real whole = std::floor(cells);
+    period = static_cast<int>(whole);
+    return (cells - whole) * size;
+  }
+
+ private:
+  friend struct LayoutProbe;
+};
+
+// Forces and torques per body and thread: a member of Scene.
+class ForceContainer {
+  vector<vector<Vector3r>> _forceData;
+  vector<vector<Vector3r>> _torqueData;
+  alignas(8) unsigned char hidden_[256];
+
+ public:
+  ForceContainer() = delete;
+  ForceContainer(const ForceContainer&) = delete;
+  ~ForceContainer();
+  void addMaxId(int id);
+  void addForce(int id, const Vector3r& force);
+  void addTorque(int id, const Vector3r& torque);
+  // Sums the contributions of the threads; must be called before reading.
+  void sync();
+  const Vector3r& getForce(int id);
+  const Vector3r& getTorque(int id);
+
+ private:
+  friend struct LayoutProbe;
+};
+
+// The energy table of O.energy.
+class EnergyTracker : public Serializable {
+  alignas(8) unsigned char hidden_[152];
+
+ public:
+  EnergyTracker() = delete;
+  ~EnergyTracker() override;
+  void setItem_py(const string& name, Real value);
+};
 
 class Scene : public Serializable {
   const unsigned int hostNameMax = 255;
@@ -58,6 +152,47 @@ class Scene : public Serializable {
   bool timeStepperPresent();
   bool timeStepperActive();
   void moveToNextTimeStep();
+};
+
+// Draws the scene in YADE's 3D view; it exists only in a yade with a window.
+class OpenGLRenderer : public Serializable {
+ public:
+  OpenGLRenderer() = delete;
+  ~OpenGLRenderer() override;
+  // Creates a functor of every class that draws.
+  void init();
+};
+
+class ClassFactory : public Singleton<ClassFactory> {
+  alignas(8) unsigned char libraryManagerAndMap_[136];
+
+ protected:
+  virtual ~ClassFactory();
+
+ public:
+  std::list<string> pluginClasses;
+
+  ClassFactory() = delete;
+  ClassFactory(const ClassFactory&) = delete;
+  virtual string getClassName() const;
+  virtual string getBaseClassName(int i) const;
+
+  shared_ptr<Factorable> createShared(string name);
+  bool registerFactorable(string name, Factorable* (*create)(),
+                          shared_ptr<Factorable> (*createShared)(), void* (*createPureCustom)());
+  void registerPluginClasses(const char* fileAndClasses[]);
+};
+
+class Omega : public Singleton<Omega> {
+ public:
+  Omega() = delete;
+  Omega(const Omega&) = delete;
+  void loadPlugins(vector<string> pluginFiles);
+  const shared_ptr<Scene>& getScene() const;
+  void createSimulationLoop();
+  bool isRunning();
+  void pause();
+  bool isInheritingFrom_recursive(const string& className, const string& baseClassName);
 };
 
 }  // namespace yade

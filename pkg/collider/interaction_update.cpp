@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "abi/body_at.hpp"
+#include "abi/lookup.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 #include "core/tolerances/collider.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Points of the plane as YADE's vectors in space, and back.
 
-#include "abi/basics.hpp"
+#include "abi/yade.hpp"
 #include "core/vec2.hpp"
 
 namespace yadefrag {

@@ -1,6 +1,6 @@
 #include "fe/given_forces.hpp"
 
-#include "abi/last_reset.hpp"
+#include "abi/lookup.hpp"
 
 namespace yadefrag {
 
