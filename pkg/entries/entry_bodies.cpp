@@ -6,12 +6,11 @@
 #include <cmath>
 #include <mutex>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
-#include "entries/entry_frame.hpp"
 #include "entries/node_forces.hpp"
-#include "entries/plane.hpp"
 #include "integrator/sphere_motion.hpp"
 
 namespace yadefrag {
@@ -56,9 +55,7 @@ std::vector<std::uint32_t> materialsAlong(const World& world) {
 
 /// `known`: what had this number before; another scene has other bodies with the same numbers.
 bool isPresent(const yade::Scene& scene, yade::Body::id_t id, const yade::Body* known) {
-  const auto place = static_cast<std::size_t>(id);
-  if (place >= scene.bodies->size()) return false;
-  const yade::Body* body = scene.bodies->body[place].get();
+  const yade::Body* body = bodyAt(scene, id);
   return body && (known == nullptr || body == known) &&
          dynamic_cast<const SurfaceSegment*>(body->shape.get());
 }

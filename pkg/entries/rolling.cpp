@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/contact.hpp"
-#include "entries/plane.hpp"
-#include "entries/sphere_contact.hpp"
 
 namespace yadefrag {
 namespace {
@@ -18,8 +17,6 @@ bool areOneFace(Vec2 a, Vec2 b) {
 }
 
 using yade::Vector3r;
-
-Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
 
 bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {
   return surfaces.next[a.value] == b || surfaces.next[b.value] == a;
@@ -43,9 +40,15 @@ struct RollingSpheres::Contact {
 
 /// As in YADE's laws; the opposite force acts on the sphere.
 void RollingSpheres::Contact::addForce(yade::Scene& scene, double by, bool fromNextStep) const {
-  const Vector3r force = by * inSpace(leftOf(direction));
+  const Vector3r force = by * inSpace(-rightOf(direction));
   phys->shearForce += force;
-  if (!fromNextStep) addContactForce(scene, *contact, *geom, force);
+  if (fromNextStep) return;
+  for (const auto& [id, sign] : {std::pair(contact->getId1(), -1.), {contact->getId2(), 1.}}) {
+    const Vector3r part = sign * force;
+    scene.forces.addForce(id, part);
+    const Vector3r& place = bodyAt(scene, id)->state->se3.position;
+    scene.forces.addTorque(id, (geom->contactPoint - place).cross(part));
+  }
 }
 
 /// Contacts of all spheres with pieces, by sphere, then piece.

@@ -12,7 +12,6 @@
 #include "entries/rolling.hpp"
 #include "fe/engine_order.hpp"
 #include "fe/fe_archive.hpp"
-#include "fe/material_watch.hpp"
 #include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
@@ -91,6 +90,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void archiveMore(AnyArchive& archive);
 
  private:
+  void followScene();
+  void stepWorld();
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();

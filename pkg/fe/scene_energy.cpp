@@ -9,11 +9,10 @@
 #include <tuple>
 #include <utility>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
-#include "entries/plane.hpp"
-#include "entries/sphere_contact.hpp"
 #include "rigid/rigid_movers.hpp"
 #include "surface/disc_contact.hpp"
 
@@ -21,13 +20,6 @@ namespace yadefrag {
 namespace {
 
 using yade::Vector3r;
-
-Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
-
-const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
-  const auto place = static_cast<std::size_t>(id);
-  return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
-}
 
 /// (rad/s) About z.
 double spinBetween(const yade::Quaternionr& before, const yade::Quaternionr& after, double dt) {
@@ -150,8 +142,7 @@ void SceneEnergy::noteOverlap(const World& world, const yade::Body& body, Touchi
   const bool isFast = approach > tolerance::kFastSphere * radius;
   deep_ = fmt::format(
       "Step {}, time {:.3g} s: sphere #{} overlaps an FE body by {:.3g} m, {:.3g} of its radius, "
-      "and "
-      "may pass through; {}",
+      "and may pass through; {}",
       world.steps, world.time, body.id, depth, depth / radius,
       isFast ? fmt::format("it moves by {:.3g} of its radius in a step: take a shorter step.",
                            approach / radius)
@@ -284,7 +275,7 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
     for (int k = 0; k < piece.foot.count; ++k)
       velocity += piece.foot.weight[k] * mean(piece.foot.node[k]);
     const Vec2 apart = mean(piece.last) - mean(piece.first);
-    velocity += cross(piece.along, apart) / dot(piece.along, piece.along) * leftOf(piece.arm);
+    velocity += cross(piece.along, apart) / dot(piece.along, piece.along) * -rightOf(piece.arm);
     Touching& own = touching_[piece.touching];
     own.normal.work += world.lastDt * dot(piece.normal, velocity);
     own.tangent.work += world.lastDt * dot(piece.tangent, velocity);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <typeinfo>
 
-#include "abi/lookup.hpp"
+#include "abi/helpers.hpp"
 #include "core/request.hpp"
 
 namespace yadefrag {
