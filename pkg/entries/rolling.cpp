@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "abi/helpers.hpp"
-#include "core/errors.hpp"
 #include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
@@ -128,25 +127,12 @@ void RollingSpheres::store(const Contacts& contacts) {
 }
 
 void RollingSpheres::archive(AnyArchive& archive) {
-  std::vector<int> ids;
-  std::vector<double> values;
-  for (const Held& held : held_) {
-    ids.insert(ids.end(), {held.sphere, held.piece});
-    values.insert(values.end(), {held.shear, held.normal, held.direction.x, held.direction.y});
-  }
-  archive.item("rollingIds", ids);
-  archive.item("rollingForces", values);
-  if (archive.isLoading()) {
-    if (values.size() != 2 * ids.size() || ids.size() % 2 != 0)
-      throw InputError(
-          "The saved state of FESolver is damaged (its contacts with spheres are invalid); load "
-          "another save.");
-    held_.clear();
-    for (std::size_t i = 0; 2 * i < ids.size(); ++i) {
-      const double* value = values.data() + 4 * i;
-      held_.push_back({ids[2 * i], ids[2 * i + 1], value[0], value[1], {value[2], value[3]}});
-    }
-  }
+  archive.rows("rollingIds", "rollingForces", held_,
+               "of FESolver is damaged (its contacts with spheres are invalid)",
+               [](Held& one, const auto& each) {
+                 each(one.sphere), each(one.piece), each(one.shear), each(one.normal);
+                 each(one.direction.x), each(one.direction.y);
+               });
 }
 
 }  // namespace yadefrag

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/errors.hpp"
-
 namespace yadefrag {
 
 using yade::Vector3r;
@@ -27,23 +25,11 @@ double SurfaceSegment::depthForLaw(yade::Body::id_t sphere, double depth) {
 }
 
 void SurfaceSegment::archiveMore(AnyArchive& archive) {
-  std::vector<int> spheres;
-  std::vector<double> values;
-  for (const Changed& one : changed) {
-    spheres.push_back(one.sphere);
-    values.insert(values.end(), {one.share, one.tolerated});
-  }
-  archive.item("changedIds", spheres);
-  archive.item("changedContacts", values);
-  if (archive.isLoading()) {
-    if (values.size() != 2 * spheres.size())
-      throw InputError(
-          "The saved state of a SurfaceSegment is damaged (its contacts with spheres are invalid); "
-          "load another save.");
-    changed.clear();
-    for (std::size_t i = 0; i < spheres.size(); ++i)
-      changed.push_back({spheres[i], values[2 * i], values[2 * i + 1]});
-  }
+  archive.rows("changedIds", "changedContacts", changed,
+               "of a SurfaceSegment is damaged (its contacts with spheres are invalid)",
+               [](Changed& one, const auto& each) {
+                 each(one.sphere), each(one.share), each(one.tolerated);
+               });
 }
 
 Attributes SurfaceSegment::attributes() {

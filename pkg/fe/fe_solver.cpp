@@ -136,12 +136,13 @@ void FESolver::warn(std::size_t known) const {
 
 /// Takes over the gravity of the scene, or reports that spheres have another one.
 void FESolver::takeGravity(const yade::NewtonIntegrator* newton) {
+  const yade::Vector3r& gravity = settings.gravity;
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
   if (takesGravity) {
     // One that is not finite is no setting; the step refuses it.
     world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
     const yade::Vector3r taken(theirs[0], theirs[1], 0);
-    if (taken.allFinite() && taken != gravity) gravity = formerGravity_ = taken;
+    if (taken.allFinite() && taken != gravity) settings.gravity = former_.gravity = taken;
     return;
   }
   if (!newton || (gravity == comparedGravity_ && theirs == comparedNewton_)) return;
@@ -284,7 +285,7 @@ void FESolver::trackEnergy() const {
   set("feFriction", ledger.friction);
   set("feFracture", ledger.fracture);
   set("feDamping", ledger.damping);
-  if (minFragmentArea > 0) set("feDropped", ledger.dropped);
+  if (settings.minFragmentArea > 0) set("feDropped", ledger.dropped);
   set("feOutside", -ledger.external);  // energy that left: the sum of all is constant
 }
 

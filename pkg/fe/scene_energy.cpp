@@ -374,51 +374,33 @@ std::string SceneEnergy::message(const World& world) {
 }
 
 void SceneEnergy::archive(AnyArchive& archive) {
-  std::vector<double> sums = {sums_.work, sums_.elastic,  sums_.friction, sums_.least,  sums_.rigid,
-                              sums_.most, sums_.reported, sums_.stiffest, sums_.deepest};
-  std::vector<int> ids;
-  std::vector<double> numbers;
-  const auto flatten = [&](Touching& one, auto&& each) {
-    for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
-    each(one.spin);
-    for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
-    for (Part* part : {&one.normal, &one.tangent}) {
-      each(part->force.x), each(part->force.y), each(part->moment), each(part->elastic);
-      each(part->held), each(part->work), each(part->ownWork);
-    }
-  };
-  constexpr std::size_t kFlags = 6, kEach = 23;
-  for (Touching& one : touching_) {
-    ids.insert(ids.end(),
-               {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring, one.isRemoved});
-    flatten(one, [&](double& value) { numbers.push_back(value); });
-  }
+  constexpr double Sums::*kSums[] = {&Sums::work,     &Sums::elastic,  &Sums::friction,
+                                     &Sums::least,    &Sums::rigid,    &Sums::most,
+                                     &Sums::reported, &Sums::stiffest, &Sums::deepest};
+  constexpr const char* kDamaged = "of FESolver is damaged (its energy balance is invalid)";
+  if (archive.isLoading()) *this = {};
+  std::vector<double> sums;
+  for (const auto one : kSums) sums.push_back(sums_.*one);
   archive.item("sceneEnergies", sums);
-  archive.item("sceneContacts", ids);
-  archive.item("sceneContactValues", numbers);
+  archive.rows("sceneContacts", "sceneContactValues", touching_, kDamaged,
+               [](Touching& one, const auto& each) {
+                 each(one.id), each(one.isRigid), each(one.slips), each(one.isSettled);
+                 each(one.isSpring), each(one.isRemoved);
+                 for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
+                 each(one.spin);
+                 for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
+                 for (Part* part : {&one.normal, &one.tangent}) {
+                   each(part->force.x), each(part->force.y), each(part->moment);
+                   each(part->elastic), each(part->held), each(part->work), each(part->ownWork);
+                 }
+               });
   archive.item("sceneStep", step_);
   int open = isOpen_ ? 1 : 0;
   archive.item("sceneIsOpen", open);
-  if (archive.isLoading()) {
-    if (sums.size() != 9 || ids.size() % kFlags != 0 ||
-        numbers.size() != ids.size() / kFlags * kEach)
-      throw InputError(
-          "The saved state of FESolver is damaged (its energy balance is invalid); load another "
-          "save.");
-    const long step = step_;
-    *this = {};
-    step_ = step, isOpen_ = open != 0;
-    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]};
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < ids.size(); i += kFlags) {
-      Touching one;
-      one.id = ids[i];
-      one.isRigid = ids[i + 1] != 0, one.slips = ids[i + 2] != 0, one.isSettled = ids[i + 3] != 0;
-      one.isSpring = ids[i + 4] != 0, one.isRemoved = ids[i + 5] != 0;
-      flatten(one, [&](double& value) { value = numbers[next++]; });
-      touching_.push_back(one);
-    }
-  }
+  isOpen_ = open != 0;
+  if (sums.size() != std::size(kSums))
+    throw InputError("The saved state " + std::string(kDamaged) + "; load another save.");
+  for (std::size_t i = 0; i < sums.size(); ++i) sums_.*kSums[i] = sums[i];
 }
 
 }  // namespace yadefrag

@@ -10,8 +10,11 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
+
+#include "core/errors.hpp"
 
 namespace yadefrag {
 
@@ -32,6 +35,38 @@ class AnyArchive {
   template <class Number>
   void numbers(const char* name, Number* first, std::size_t count) {
     exchange(name, Numbers(std::span(first, count)));
+  }
+  /// Rows as two columns, of whole numbers and of others: `visit(row, each)` calls `each` with each
+  /// member of a row, which is an int, a bool or a double. Throws InputError if the columns do not
+  /// fit to each other; `what` are the rows.
+  template <class Row, class Visit>
+  void rows(const char* wholeName, const char* realName, std::vector<Row>& rows, const char* what,
+            const Visit& visit) {
+    std::vector<int> whole;
+    std::vector<double> real;
+    const auto append = [&]<class Member>(Member& member) {
+      if constexpr (std::is_same_v<Member, double>)
+        real.push_back(member);
+      else
+        whole.push_back(member);
+    };
+    for (Row& row : rows) visit(row, append);
+    item(wholeName, whole), item(realName, real);
+    if (!isLoading()) return;
+    std::size_t inRow[2] = {}, next[2] = {};
+    const auto read = [&]<class Member>(Member& member) {
+      if constexpr (std::is_same_v<Member, double>)
+        member = real[next[1]++];
+      else
+        member = static_cast<Member>(whole[next[0]++]);
+    };
+    Row row{};
+    visit(row, [&]<class Member>(Member&) { ++inRow[std::is_same_v<Member, double> ? 1 : 0]; });
+    const std::size_t count = whole.size() / inRow[0];
+    if (whole.size() != count * inRow[0] || real.size() != count * inRow[1])
+      throw InputError("The saved state " + std::string(what) + "; load another save.");
+    rows.assign(count, row);
+    for (Row& one : rows) visit(one, read);
   }
 
  protected:

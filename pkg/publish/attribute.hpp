@@ -62,9 +62,10 @@ Attribute attribute(const char* name, Value Class::*member, const char* doc, int
 }
 /// A member of a member.
 template <class Class, class Part, class Value>
-Attribute attribute(const char* name, Part Class::*part, Value Part::*member, const char* doc) {
+Attribute attribute(const char* name, Part Class::*part, Value Part::*member, const char* doc,
+                    int flags = 0) {
   const std::ptrdiff_t inPart = std::bit_cast<std::ptrdiff_t>(member);
-  return {name, doc, 0, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(part) + inPart};
+  return {name, doc, flags, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(part) + inPart};
 }
 /// An element of an array that is one.
 template <class Class, class Part, class Value, std::size_t kCount>
