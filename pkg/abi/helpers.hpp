@@ -1,6 +1,8 @@
 #pragma once
 // Bodies by id, vectors of the plane z = 0, what is read of YADE's objects without its functions.
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,6 +28,12 @@ inline const yade::Body* bodyAt(const std::vector<yade::shared_ptr<yade::Body>>&
 }
 inline const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
   return bodyAt(scene.bodies->body, id);
+}
+
+/// As many as its ompThreads, or all.
+inline int threadsOf(const yade::Engine& engine) {
+  const int most = omp_get_max_threads();
+  return engine.ompThreads > 0 ? std::min(engine.ompThreads, most) : most;
 }
 
 /// The friction coefficient of a body's material; 0 without one.

@@ -1,12 +1,12 @@
 #include "collider/search_collider.hpp"
 
 #include <fmt/core.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
@@ -33,7 +33,7 @@ std::array<Lattice::Vector, 3> periodsOf(const yade::Cell& cell) {
 
 /// One search. The scene is not changed before every body has been checked.
 void SearchCollider::action() try {
-  const int threads = threadsToUse();
+  const int threads = threadsOf(*this);
   const auto before = std::tuple(verletDist, interval, lastIter_);
   try {
     chooseVerletDist();
@@ -139,11 +139,6 @@ bool SearchCollider::isStillNear(Body::id_t id1, Body::id_t id2) const {
   Nearness unused;
   return overlaps(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value]) &&
          isNear(pair, SphereReach(boxes_.balls(), 0), unused);
-}
-
-int SearchCollider::threadsToUse() const {
-  const int most = omp_get_max_threads();
-  return ompThreads > 0 ? std::min(ompThreads, most) : most;
 }
 
 /// A negative verletDist is a multiple of the smallest radius. Without any sphere it is kept for

@@ -98,7 +98,6 @@ class SearchCollider : public yade::Collider {
   void sceneIsSearched();
   [[nodiscard]] bool bodiesCame() const;
   [[nodiscard]] double cellSlack() const;
-  [[nodiscard]] int threadsToUse() const;
 
   SearchMethod method_;
   std::unique_ptr<IncrementalSearch> search_;

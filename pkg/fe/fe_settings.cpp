@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -69,12 +67,7 @@ void FESolver::giveSettings() {
   world_.fracture.maxCracks =
       settings.maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(settings.maxCracks);
   world_.fracture.minFragmentArea = settings.minFragmentArea;
-  world_.threads = threadsToUse();
-}
-
-int FESolver::threadsToUse() const {
-  const int most = omp_get_max_threads();
-  return ompThreads > 0 ? std::min(ompThreads, most) : most;
+  world_.threads = threadsOf(*this);
 }
 
 namespace {

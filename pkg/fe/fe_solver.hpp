@@ -90,7 +90,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
   static Attributes attributes();
   static void pyExtra(SolverClass& solver) {
-    convertChoice<ToleranceChoice>();
     defineArrays(solver), defineBodies(solver), defineMotions(solver);
     defineQuality(solver), defineResults(solver);
   }
@@ -116,7 +115,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void followBonds();
   void updateBodies();
   void trackEnergy() const;
-  [[nodiscard]] int threadsToUse() const;
 
   World world_;
   std::vector<Vec2> loadedForces_;  // of contact, of a saved state, until the next step

@@ -41,10 +41,7 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   RateChoice rateEffect;
 
   static Attributes attributes();
-  static void pyExtra(const yade::py::object& /*pyClass*/) {
-    convertChoice<SofteningChoice>(), convertChoice<RateChoice>();
-    convertChoice<HardeningChoice>();
-  }
+  static void pyExtra(const yade::py::object& /*pyClass*/) { convertChoices(); }
 };
 
 class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>, FEMat> {

@@ -288,8 +288,7 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
     const auto [own, isNew] = rigid.emplace(one.id, touching_.size());
     if (isNew) touching_.push_back(touchingOf(*body, true));
     // Of others the boundary follows a prescribed motion, if need be a step later.
-    const yade::Body* const mover = body->isClumpMember() ? bodyAt(scene, body->clumpId) : body;
-    if (!mover || !mover->isDynamic()) continue;
+    if (!moverOf(scene, *body).isDynamic()) continue;
     Part& part = touching_[own->second].normal;
     part.force += -inPlane(one.force), part.moment -= one.torque[2];
     part.work -= one.work;
@@ -319,9 +318,10 @@ double SceneEnergy::kineticEnergy(const yade::Scene& scene) const {
   std::set<const yade::State*> counted;
   for (const Touching& one : touching_) {
     const yade::Body* body = bodyAt(scene, one.id);
-    if (body && body->isClumpMember()) body = bodyAt(scene, body->clumpId);
-    if (!body || !body->isDynamic() || !counted.insert(body->state.get()).second) continue;
-    const yade::State& state = *body->state;
+    if (!body) continue;
+    const yade::Body& mover = moverOf(scene, *body);
+    const yade::State& state = *mover.state;
+    if (!mover.isDynamic() || !counted.insert(&state).second) continue;
     twice += state.mass * state.vel.squaredNorm() +
              state.inertia.dot(state.angVel.cwiseProduct(state.angVel));
   }

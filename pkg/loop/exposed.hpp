@@ -12,10 +12,10 @@ struct Expose {
   friend constexpr auto exposed(Tag) { return member; }
 };
 
-#define YADEFRAG_EXPOSE(Tag, member)      \
-  struct Tag {                            \
-    friend constexpr auto exposed(Tag);   \
-  };                                      \
+#define YADEFRAG_EXPOSE(Tag, member)    \
+  struct Tag {                          \
+    friend constexpr auto exposed(Tag); \
+  };                                    \
   template struct Expose<Tag, member>
 
 YADEFRAG_EXPOSE(TwistAxis, &yade::ScGeom::twist_axis);

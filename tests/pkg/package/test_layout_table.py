@@ -18,7 +18,6 @@ ABI = ROOT / 'pkg' / 'abi'
 sys.path.insert(0, str(ABI / 'tools'))
 
 import check_virtuals  # noqa: E402
-import class_dump  # noqa: E402
 import make_table  # noqa: E402
 import versions  # noqa: E402
 
@@ -128,7 +127,7 @@ def test_theDeclarationsFitEveryVersion(version, tmp_path):
     """Also those whose package is not here: sizes and offsets by the compiler, then the functions."""
     done, dump = compiled(tmp_path, version)
     assert done.returncode == 0, done.stderr[-2000:]
-    tables = class_dump.readTables(dump.read_text())
+    tables = check_virtuals.readTables(dump.read_text())
     assert list(check_virtuals.differences(tables, KNOWN[version]['classes'],
                                            check_virtuals.derivedFrom())) == []
 
@@ -170,7 +169,7 @@ yade::Shape::_ZTVN4yade5ShapeE: 9 entries
 Class yade::Shape
    size=96 align=8
 '''
-    assert class_dump.readTables(dump) == {'Shape': {'0': ['~', 'getVolume'],
+    assert check_virtuals.readTables(dump) == {'Shape': {'0': ['~', 'getVolume'],
                                                      '24': ['~', 'getBaseClassIndex', 'go']}}
 
 
