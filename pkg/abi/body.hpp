@@ -12,7 +12,6 @@ namespace yade {
 class BoundFunctor;
 class Interaction;
 class InternalForceFunctor;
-class Scene;
 
 template <class Scalar>
 class Se3 {
@@ -83,10 +82,6 @@ class Material : public Serializable, public Indexable {
   ~Material() override;
   virtual shared_ptr<State> newAssocState() const;
   virtual bool stateTypeOk(State* state) const;
-
-  // Both throw std::runtime_error for a material that is not in the scene.
-  static const shared_ptr<Material> byId(int id, Scene* scene = nullptr);
-  static const shared_ptr<Material> byLabel(const string& label, Scene* scene = nullptr);
   YADEFRAG_INDEX_FUNCTIONS;
 };
 
@@ -197,13 +192,8 @@ class Body : public Serializable {
 
   Body();
   ~Body() override;
-  virtual void userForcedDisplacementRedrawHook();
-
-  static const shared_ptr<Body>& byId(id_t id, Scene* scene = nullptr);
-  static const shared_ptr<Body>& byId(id_t id, shared_ptr<Scene> scene);
 
   id_t getId() const { return id; }
-  mask_t getGroupMask() const { return groupMask; }
   bool isBounded() const { return (flags & FLAG_BOUNDED) != 0; }
   bool getIsSubdomain() const { return (flags & FLAG_SUBDOMAIN) != 0; }
   bool getIsFluidDomainBbox() const { return (flags & FLAG_FLUIDDOMAINBBOX) != 0; }
@@ -238,7 +228,6 @@ class BodyContainer : public Serializable {
   // Both act on the scene of `O`.
   Body::id_t insert(shared_ptr<Body> body);
   bool erase(Body::id_t id, bool eraseClumpMembers);
-  void updateRealBodies();
 };
 
 }  // namespace yade

@@ -16,9 +16,6 @@ class Dispatcher : public Engine {
  public:
   Dispatcher() = delete;
   ~Dispatcher() override;
-  virtual string getFunctorType() const;
-  virtual int getDimension() const;
-  virtual string getBaseClassType(unsigned int i) const;
 };
 
 template <class FunctorType>

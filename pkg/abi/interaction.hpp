@@ -9,6 +9,7 @@ namespace yade {
 class IGeomFunctor;
 class IPhysFunctor;
 class LawFunctor;
+class Scene;
 
 class IGeom : public Serializable, public Indexable {
  public:
@@ -111,7 +112,6 @@ class Interaction : public Serializable {
   bool isReal() const { return geom && phys; }
   const Body::id_t& getId1() const { return id1; }
   const Body::id_t& getId2() const { return id2; }
-  bool isFresh(Scene* scene);
   void swapOrder();
   void reset();
 };
@@ -150,9 +150,6 @@ class InteractionContainer : public Serializable {
   // linPos must be the interaction's linIx: the package is built with assertions that require it.
   bool erase(Body::id_t id1, Body::id_t id2, int linPos = -1);
   const shared_ptr<Interaction>& find(Body::id_t id1, Body::id_t id2);
-  void clear();
-  void eraseNonReal();
-  void requestErase(Body::id_t id1, Body::id_t id2);
 
  private:
   friend struct LayoutProbe;  // layout_checks.cpp checks the private members, too

@@ -1,7 +1,6 @@
 #pragma once
 // The scene with its parts, YADE's class factory, and the class of `O` in Python.
 
-#include <cmath>
 #include <list>
 
 #include "abi/engine.hpp"
@@ -32,8 +31,6 @@ class Cell : public Serializable {
   double _glShearTrsfMatrix[16];
 
  public:
-  enum { HOMO_NONE = 0, HOMO_POS = 1, HOMO_VEL = 2, HOMO_VEL_2ND = 3 };
-
   Matrix3r trsf;
   Matrix3r refHSize;
   Matrix3r hSize;
@@ -49,24 +46,11 @@ class Cell : public Serializable {
   ~Cell() override;
 
   const Vector3r& getSize() const { return _size; }
-  const Vector3r& getCos() const { return _cos; }
   bool hasShear() const { return _hasShear; }
   const Matrix3r& getShearTrsf() const { return _shearTrsf; }
   const Matrix3r& getUnshearTrsf() const { return _unshearTrsf; }
-  Vector3r shearPt(const Vector3r& pt) const { return _shearTrsf * pt; }
   Vector3r unshearPt(const Vector3r& pt) const { return _unshearTrsf * pt; }
   Vector3r intrShiftPos(const Vector3i& cellDist) const { return hSize * cellDist.cast<Real>(); }
-
-  static Real wrapNum(const Real& x, const Real& size) {
-    int period;
-    return wrapNum(x, size, period);
-  }
-  static Real wrapNum(const Real& x, const Real& size, int& period) {
-    const Real cells = x / size;
-    const Real whole = std::floor(cells);
-    period = static_cast<int>(whole);
-    return (cells - whole) * size;
-  }
 
  private:
   friend struct LayoutProbe;
@@ -149,8 +133,6 @@ class Scene : public Serializable {
  public:
   Scene() = delete;
   ~Scene() override;
-  bool timeStepperPresent();
-  bool timeStepperActive();
   void moveToNextTimeStep();
 };
 
@@ -177,7 +159,6 @@ class ClassFactory : public Singleton<ClassFactory> {
   virtual string getClassName() const;
   virtual string getBaseClassName(int i) const;
 
-  shared_ptr<Factorable> createShared(string name);
   bool registerFactorable(string name, Factorable* (*create)(),
                           shared_ptr<Factorable> (*createShared)(), void* (*createPureCustom)());
   void registerPluginClasses(const char* fileAndClasses[]);
@@ -192,7 +173,6 @@ class Omega : public Singleton<Omega> {
   void createSimulationLoop();
   bool isRunning();
   void pause();
-  bool isInheritingFrom_recursive(const string& className, const string& baseClassName);
 };
 
 }  // namespace yade
