@@ -12,8 +12,8 @@
 
 namespace yadefrag {
 
-/// Forces and torques on bodies, read without a call for each body: of one step, after ForceContainer::sync. YADE's arrays may end before the last body: those
-/// behind have no force.
+/// Forces and torques on bodies, read without a call for each body: of one step, after
+/// ForceContainer::sync. YADE's arrays may end before the last body: those behind have no force.
 class SummedForces {
  public:
   SummedForces() = default;
