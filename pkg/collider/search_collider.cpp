@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 #include "abi/helpers.hpp"
 #include "core/errors.hpp"
@@ -12,7 +13,6 @@
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/running.hpp"
-#include "search/overlapping_pairs.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <optional>
-#include <tuple>
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"

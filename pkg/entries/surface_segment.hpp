@@ -2,7 +2,6 @@
 // The shape of a surface entry's body: one piece of a boundary, material on the left. Its bound,
 // and its contacts with spheres.
 
-#include <tuple>
 #include <vector>
 
 #include "abi/yade.hpp"

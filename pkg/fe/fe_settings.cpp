@@ -10,6 +10,7 @@
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/solver.hpp"
 #include "core/tolerances/step.hpp"
+#include "fe/fe_archive.hpp"
 #include "fe/fe_solver.hpp"
 
 namespace yadefrag {

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/spheres.hpp"

@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -11,7 +10,6 @@
 #include "entries/entry_bodies.hpp"
 #include "entries/rolling.hpp"
 #include "fe/engine_order.hpp"
-#include "fe/fe_archive.hpp"
 #include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"

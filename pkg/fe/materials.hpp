@@ -3,7 +3,6 @@
 // constants are those of lib/mesh.
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "abi/yade.hpp"

@@ -19,14 +19,6 @@
 namespace yadefrag {
 namespace {
 
-using yade::Vector3r;
-
-/// (rad/s) About z.
-double spinBetween(const yade::Quaternionr& before, const yade::Quaternionr& after, double dt) {
-  const yade::Quaternionr turn = after * before.conjugate();
-  return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * M_PI) / dt;
-}
-
 /// The spring of a sphere and a piece. Pieces that share an overlap at a junction have a share of
 /// its stiffness each, and so may pieces that a crack has separated.
 struct Spring {
@@ -178,7 +170,8 @@ void SceneEnergy::measureMotion(const yade::Scene& scene, const World& world) {
     if (!body || one.isSettled) continue;
     const Vec2 way = inPlane(body->state->se3.position) - one.place;
     const Vec2 velocity = inPlane(body->state->vel);
-    const double spin = spinBetween(one.orientation, body->state->se3.orientation, dt);
+    const yade::Quaternionr turn = body->state->se3.orientation * one.orientation.conjugate();
+    const double spin = std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * M_PI) / dt;
     // A script may have brought it to another place.
     const bool isMoved = norm(way - dt * velocity) > tolerance::kMostMotion * world.search.shortest;
     const Vec2 after = isMoved ? velocity : 1 / dt * way;

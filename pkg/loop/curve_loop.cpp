@@ -1,6 +1,5 @@
 #include "loop/curve_loop.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "abi/helpers.hpp"

@@ -15,7 +15,6 @@
 namespace yadefrag {
 namespace {
 
-using yade::Quaternionr;
 using yade::Vector3r;
 
 /// Extent of all finite-element bodies.

@@ -1,7 +1,6 @@
 #include "rigid/rigid_outlines.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

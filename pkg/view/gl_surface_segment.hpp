@@ -1,8 +1,6 @@
 #pragma once
 // Finite-element bodies in YADE's 3D view.
 
-#include <tuple>
-
 #include "abi/yade.hpp"
 #include "publish/published.hpp"
 #include "view/body_picture.hpp"
