@@ -38,7 +38,7 @@ class AnyArchive {
   }
   /// Rows as two columns, of whole numbers and of others: `visit(row, each)` calls `each` with each
   /// member of a row, which is an int, a bool or a double. Throws InputError if the columns do not
-  /// fit to each other; `what` are the rows.
+  /// fit to each other; `what`: whose state it is, and what is wrong with it.
   template <class Row, class Visit>
   void rows(const char* wholeName, const char* realName, std::vector<Row>& rows, const char* what,
             const Visit& visit) {
