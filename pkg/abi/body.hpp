@@ -1,16 +1,174 @@
 #pragma once
+// Bodies, and what they consist of: state, bound, material, shape.
 
 #include <map>
+#include <mutex>
 
-#include "abi/bound.hpp"
-#include "abi/material.hpp"
-#include "abi/shape.hpp"
-#include "abi/state.hpp"
+#include "abi/layout.hpp"
+#include "abi/serializable.hpp"
 
 namespace yade {
 
+class BoundFunctor;
 class Interaction;
-class Scene;
+class InternalForceFunctor;
+
+template <class Scalar>
+class Se3 {
+ public:
+  Eigen::Matrix<Scalar, 3, 1> position;
+  Eigen::Quaternion<Scalar> orientation;
+};
+using Se3r = Se3<Real>;
+
+class State : public Serializable, public Indexable {
+ public:
+  enum { DOF_NONE = 0, DOF_X = 1, DOF_Y = 2, DOF_Z = 4, DOF_RX = 8, DOF_RY = 16, DOF_RZ = 32 };
+  static const unsigned DOF_ALL = 63;
+
+  Vector3r& pos;
+  Quaternionr& ori;
+  std::mutex updateMutex;
+  Se3r se3;
+  Vector3r vel;
+  Real mass;
+  Vector3r angVel;
+  Vector3r angMom;
+  Vector3r inertia;
+  Vector3r refPos;
+  Quaternionr refOri;
+  unsigned blockedDOFs;
+  bool isDamped;
+  Real densityScaling;
+
+  State();
+  ~State() override;
+  YADEFRAG_INDEX_FUNCTIONS;
+};
+
+// Bounding boxes of bodies; their corners are in the unsheared coordinates of a periodic cell.
+class Bound : public Serializable, public Indexable {
+ public:
+  int lastUpdateIter;
+  Vector3r refPos;
+  Real sweepLength;
+  Vector3r color;
+  Vector3r min;
+  Vector3r max;
+
+  Bound() = delete;
+  ~Bound() override;
+  YADEFRAG_INDEX_FUNCTIONS;
+};
+
+class Aabb : public Bound {
+ public:
+  Aabb();
+  ~Aabb() override;
+  const int& getClassIndex() const override;
+  const int& getBaseClassIndex(int depth) const override;
+
+ protected:
+  int& modifyClassIndex() override;
+};
+
+class Material : public Serializable, public Indexable {
+ public:
+  int id;
+  string label;
+  Real density;
+
+  Material() = delete;
+  ~Material() override;
+  virtual shared_ptr<State> newAssocState() const;
+  virtual bool stateTypeOk(State* state) const;
+  YADEFRAG_INDEX_FUNCTIONS;
+};
+
+class ElastMat : public Material {
+ public:
+  Real young;
+  Real poisson;
+
+  ElastMat() = delete;
+  ~ElastMat() override;
+};
+
+class FrictMat : public ElastMat {
+ public:
+  Real frictionAngle;
+
+  FrictMat();
+  ~FrictMat() override;
+  YADEFRAG_YADE_FUNCTIONS;
+  const int& getClassIndex() const override;
+  const int& getBaseClassIndex(int depth) const override;
+
+ protected:
+  int& modifyClassIndex() override;
+};
+
+class Shape : public Serializable, public Indexable {
+ public:
+  shared_ptr<BoundFunctor> boundFunctor;
+  shared_ptr<InternalForceFunctor> internalforcefunctor;
+  Vector3r color = Vector3r::Ones();
+  bool wire = false;
+  bool highlight = false;
+
+  ~Shape() override;
+  YADEFRAG_YADE_FUNCTIONS;
+#if YADEFRAG_YADE >= 202601
+  virtual Real getVolume();
+#endif
+
+ protected:
+  Shape() = default;
+  int& modifyClassIndex() override;
+
+ public:
+  const int& getClassIndex() const override;
+  const int& getBaseClassIndex(int depth) const override;
+  const int& getMaxCurrentlyUsedClassIndexOfKin() const override;
+
+ protected:
+  void incrementMaxCurrentlyUsedClassIndexOfKin() override;
+};
+
+class Sphere : public Shape {
+ public:
+  Real radius;
+  Sphere() = delete;
+  ~Sphere() override;
+};
+
+class Box : public Shape {
+ public:
+  Vector3r extents;
+  Box() = delete;
+  ~Box() override;
+};
+
+class Facet : public Shape {
+ public:
+  Vector3r ne[3];
+  Real icr;
+  Real vl[3];
+  Vector3r vu[3];
+  vector<Vector3r> vertices;
+  Vector3r normal;
+  Real area;
+  Facet() = delete;
+  ~Facet() override;
+};
+
+class Wall : public Shape {
+ public:
+  int sense;
+  int axis;
+  Wall() = delete;
+  ~Wall() override;
+};
 
 class Body : public Serializable {
  public:
@@ -34,13 +192,8 @@ class Body : public Serializable {
 
   Body();
   ~Body() override;
-  virtual void userForcedDisplacementRedrawHook();
-
-  static const shared_ptr<Body>& byId(id_t id, Scene* scene = nullptr);
-  static const shared_ptr<Body>& byId(id_t id, shared_ptr<Scene> scene);
 
   id_t getId() const { return id; }
-  mask_t getGroupMask() const { return groupMask; }
   bool isBounded() const { return (flags & FLAG_BOUNDED) != 0; }
   bool getIsSubdomain() const { return (flags & FLAG_SUBDOMAIN) != 0; }
   bool getIsFluidDomainBbox() const { return (flags & FLAG_FLUIDDOMAINBBOX) != 0; }
@@ -75,7 +228,6 @@ class BodyContainer : public Serializable {
   // Both act on the scene of `O`.
   Body::id_t insert(shared_ptr<Body> body);
   bool erase(Body::id_t id, bool eraseClumpMembers);
-  void updateRealBodies();
 };
 
 }  // namespace yade

@@ -1,12 +1,13 @@
 #pragma once
-// The dispatchers: that which updates the bounds of bodies, and the base of those for contacts.
+// The dispatchers: that which updates the bounds of bodies, and those for contacts; and the engines
+// that have them.
 
 #include <cstddef>
+#include <list>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "abi/engine.hpp"
 #include "abi/functor.hpp"
 
 namespace yade {
@@ -15,9 +16,6 @@ class Dispatcher : public Engine {
  public:
   Dispatcher() = delete;
   ~Dispatcher() override;
-  virtual string getFunctorType() const;
-  virtual int getDimension() const;
-  virtual string getBaseClassType(unsigned int i) const;
 };
 
 template <class FunctorType>
@@ -115,6 +113,80 @@ class BoundDispatcher : public Dispatcher1D<BoundFunctor> {
   bool isActivated() override;
   void action() override;
   void processBody(const shared_ptr<Body>& body);
+};
+
+// The base of every collider.
+class Collider : public GlobalEngine {
+ public:
+  shared_ptr<BoundDispatcher> boundDispatcher;
+  mask_t avoidSelfInteractionMask;
+
+  Collider();
+  ~Collider() override;
+  YADEFRAG_YADE_FUNCTIONS;
+  void pyHandleCustomCtorArgs(py::tuple& args, py::dict& kw) override;
+  virtual vector<Body::id_t> probeBoundingVolume(const Bound& bound);
+  virtual void invalidatePersistentData();
+  bool mayCollide(const Body* a, const Body* b, Body::id_t subdomain);
+};
+
+class IntrCallback : public Serializable {
+ public:
+  using FuncPtr = void (*)(IntrCallback*, Interaction*);
+  Scene* scene;
+  IntrCallback() = delete;
+  ~IntrCallback() override;
+  virtual FuncPtr stepInit();
+};
+
+class IGeomDispatcher : public Dispatcher2D<IGeomFunctor, Shape, Shape> {
+  bool alreadyWarnedNoCollider;
+
+ public:
+  vector<shared_ptr<IGeomFunctor>> functors;
+  IGeomDispatcher() = delete;
+  ~IGeomDispatcher() override;
+
+ private:
+  friend struct LayoutProbe;
+};
+
+class IPhysDispatcher : public Dispatcher2D<IPhysFunctor, Material, Material> {
+ public:
+  vector<shared_ptr<IPhysFunctor>> functors;
+  IPhysDispatcher() = delete;
+  ~IPhysDispatcher() override;
+};
+
+class LawDispatcher : public Dispatcher2D<LawFunctor, IGeom, IPhys> {
+ public:
+  vector<shared_ptr<LawFunctor>> functors;
+  LawDispatcher() = delete;
+  ~LawDispatcher() override;
+};
+
+class InteractionLoop : public GlobalEngine {
+  bool alreadyWarnedNoCollider;
+  vector<std::list<std::pair<Body::id_t, Body::id_t>>> eraseAfterLoopIds;
+
+ public:
+  shared_ptr<IGeomDispatcher> geomDispatcher;
+  shared_ptr<IPhysDispatcher> physDispatcher;
+  shared_ptr<LawDispatcher> lawDispatcher;
+  vector<shared_ptr<IntrCallback>> callbacks;
+  bool loopOnSortedInteractions;
+#if YADEFRAG_YADE >= 202601
+  bool warnRoleIg2;
+#endif
+
+  InteractionLoop();
+  ~InteractionLoop() override;
+  YADEFRAG_YADE_FUNCTIONS;
+  void pyHandleCustomCtorArgs(py::tuple& args, py::dict& kw) override;
+  void action() override;
+
+ private:
+  friend struct LayoutProbe;
 };
 
 }  // namespace yade

@@ -1,12 +1,22 @@
 #pragma once
 // Engines: the parts of the simulation loop.
 
+#include "abi/layout.hpp"
 #include "abi/serializable.hpp"
-#include "abi/timing.hpp"
 
 namespace yade {
 
 class Scene;
+
+// The data that yade.timing reads.
+struct TimingInfo {
+  using delta = unsigned long long;
+  long nExec;
+  delta nsec;
+  static bool enabled;
+};
+
+class TimingDeltas;  // used by pointer only
 
 class Engine : public Serializable {
  public:
@@ -19,13 +29,7 @@ class Engine : public Serializable {
 
   Engine();
   ~Engine() override;
-  string getBaseClassName(unsigned int i = 0) const override;
-  int getBaseClassNumber() const override;
-  string getClassName() const override;
-  void pySetAttr(const string& key, const py::object& value) override;
-  py::dict pyDict() const override;
-  void callPostLoad() override;
-  void pyRegisterClass(py::object scope) override;
+  YADEFRAG_YADE_FUNCTIONS;
   virtual bool isActivated();
   virtual void action();
 };
@@ -34,13 +38,59 @@ class GlobalEngine : public Engine {
  public:
   GlobalEngine() = default;
   ~GlobalEngine() override;
-  string getBaseClassName(unsigned int i = 0) const override;
-  int getBaseClassNumber() const override;
-  string getClassName() const override;
-  void pySetAttr(const string& key, const py::object& value) override;
-  py::dict pyDict() const override;
-  void callPostLoad() override;
-  void pyRegisterClass(py::object scope) override;
+  YADEFRAG_YADE_FUNCTIONS;
+};
+
+class FieldApplier : public GlobalEngine {
+ public:
+  int fieldWorkIx;
+  FieldApplier() = delete;
+  ~FieldApplier() override;
+  void action() override;
+};
+
+// Its record of the fastest body determines when a collider must search.
+class NewtonIntegrator : public FieldApplier {
+  bool syncEnsured;
+  bool cellChanged;
+  int homoDeform;
+  bool bodySelected;
+  Matrix3r dVelGrad;
+  Vector3r dSpin;
+
+ public:
+  bool densityScaling;
+  Real updatingDispFactor;
+  vector<Real> threadMaxVelocitySq;
+  Real damping;
+  Vector3r gravity;
+  Real maxVelocitySq;
+  bool exactAsphericalRot;
+
+ private:
+  // Since 2025: rotAlgorithm, normalizeEvery, niterOmelyan1998. Before: padding.
+  unsigned char rotation_[yadefrag::layoutBytes("NewtonIntegrator", "prevVelGrad") -
+                          yadefrag::layoutBytes("NewtonIntegrator", "exactAsphericalRot") - 1];
+
+ public:
+  Matrix3r prevVelGrad;
+  Vector3r prevCellSize;
+  bool warnNoForceReset;
+  int nonviscDampIx;
+  bool kinSplit;
+  bool dampGravity;
+  int kinEnergyIx;
+  int kinEnergyTransIx;
+  int kinEnergyRotIx;
+  int mask;
+
+  NewtonIntegrator();
+  ~NewtonIntegrator() override;
+  YADEFRAG_YADE_FUNCTIONS;
+  void action() override;
+
+ private:
+  friend struct LayoutProbe;
 };
 
 }  // namespace yade

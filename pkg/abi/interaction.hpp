@@ -1,14 +1,90 @@
 #pragma once
+// Interactions, and what they consist of: the geometry of a contact as YADE's laws for spheres use
+// it, and the forces as its laws with a normal and a shear part compute them.
 
 #include "abi/body.hpp"
 
 namespace yade {
 
-class IGeom;
-class IPhys;
 class IGeomFunctor;
 class IPhysFunctor;
 class LawFunctor;
+class Scene;
+
+class IGeom : public Serializable, public Indexable {
+ public:
+  IGeom() = delete;
+  ~IGeom() override;
+  YADEFRAG_INDEX_FUNCTIONS;
+};
+
+class GenericSpheresContact : public IGeom {
+ public:
+  Vector3r normal;
+  Vector3r contactPoint;
+  Real refR1;
+  Real refR2;
+
+  GenericSpheresContact() = delete;
+  ~GenericSpheresContact() override;
+};
+
+class ScGeom : public GenericSpheresContact {
+  Vector3r twist_axis;
+  Vector3r orthonormal_axis;
+
+ public:
+  Real& radius1;
+  Real& radius2;
+  Real penetrationDepth;
+  Vector3r shearInc;
+
+  ScGeom();
+  ~ScGeom() override;
+  void precompute(const State& state1, const State& state2, const Scene* scene,
+                  const shared_ptr<Interaction>& contact, const Vector3r& currentNormal, bool isNew,
+                  const Vector3r& shift2, bool avoidGranularRatcheting = true);
+
+ private:
+  friend struct LayoutProbe;
+};
+
+class IPhys : public Serializable, public Indexable {
+ public:
+  IPhys() = delete;
+  ~IPhys() override;
+  YADEFRAG_INDEX_FUNCTIONS;
+};
+
+class NormPhys : public IPhys {
+ public:
+  Real kn;
+  Vector3r normalForce;
+
+  NormPhys() = delete;
+  ~NormPhys() override;
+};
+
+// Force on the second body; the first one gets the opposite force.
+class NormShearPhys : public NormPhys {
+ public:
+  Real ks;
+  Vector3r shearForce;
+
+  NormShearPhys() = delete;
+  ~NormShearPhys() override;
+};
+
+class FrictPhys : public NormShearPhys {
+ public:
+  Real tangensOfFrictionAngle;
+#if YADEFRAG_YADE >= 202601
+  Real frictDissip;
+#endif
+
+  FrictPhys();
+  ~FrictPhys() override;
+};
 
 class Interaction : public Serializable {
  public:
@@ -36,7 +112,6 @@ class Interaction : public Serializable {
   bool isReal() const { return geom && phys; }
   const Body::id_t& getId1() const { return id1; }
   const Body::id_t& getId2() const { return id2; }
-  bool isFresh(Scene* scene);
   void swapOrder();
   void reset();
 };
@@ -75,9 +150,6 @@ class InteractionContainer : public Serializable {
   // linPos must be the interaction's linIx: the package is built with assertions that require it.
   bool erase(Body::id_t id1, Body::id_t id2, int linPos = -1);
   const shared_ptr<Interaction>& find(Body::id_t id1, Body::id_t id2);
-  void clear();
-  void eraseNonReal();
-  void requestErase(Body::id_t id1, Body::id_t id2);
 
  private:
   friend struct LayoutProbe;  // layout_checks.cpp checks the private members, too

@@ -2,10 +2,22 @@
 // Sizes and member offsets, in bytes, of YADE's classes in the Debian package (double precision,
 // OPENMP, MPI, no VECTORIZE). The build makes the table from pkg/abi/versions.
 
-#include "abi/layout_entry.hpp"
+#include <cstddef>
+#include <string_view>
+
 #include "abi/layout_table.hpp"
 
 namespace yadefrag {
+
+struct LayoutEntry {
+  std::string_view type;
+  std::string_view member;  // empty: the size of the type
+  std::size_t bytes;
+};
+
+#define YADEFRAG_SIZE_ROW(Type, bytes) {#Type, "", bytes},
+#define YADEFRAG_MEMBER_ROW(Type, member, bytes) {#Type, #member, bytes},
+inline constexpr LayoutEntry kLayout[] = {YADEFRAG_LAYOUT(YADEFRAG_SIZE_ROW, YADEFRAG_MEMBER_ROW)};
 
 // A member that is not in the table causes a compile error.
 consteval std::size_t layoutBytes(std::string_view type, std::string_view member) {

@@ -1,14 +1,92 @@
 #pragma once
+// The scene with its parts, YADE's class factory, and the class of `O` in Python.
 
-#include "abi/body.hpp"
-#include "abi/cell.hpp"
+#include <list>
+
 #include "abi/engine.hpp"
-#include "abi/force_container.hpp"
 #include "abi/interaction.hpp"
+
+template <class T>
+class Singleton {
+ protected:
+  static T* self;
+
+ public:
+  static T& instance();  // YADE's library contains the two instantiations used
+};
 
 namespace yade {
 
-class EnergyTracker;
+// The periodic cell.
+class Cell : public Serializable {
+  Matrix3r _invTrsf;
+  Matrix3r _trsfInc;
+  Matrix3r _vGradTimesPrevH;
+  Vector3r _size;
+  Vector3r _cos;
+  Vector3r _refSize;
+  bool _hasShear;
+  Matrix3r _shearTrsf;
+  Matrix3r _unshearTrsf;
+  double _glShearTrsfMatrix[16];
+
+ public:
+  Matrix3r trsf;
+  Matrix3r refHSize;
+  Matrix3r hSize;
+  Matrix3r prevHSize;
+  Matrix3r velGrad;
+  Matrix3r nextVelGrad;
+  Matrix3r prevVelGrad;
+  int homoDeform;
+  bool velGradChanged;
+  bool flipFlippable;
+
+  Cell();
+  ~Cell() override;
+
+  const Vector3r& getSize() const { return _size; }
+  bool hasShear() const { return _hasShear; }
+  const Matrix3r& getShearTrsf() const { return _shearTrsf; }
+  const Matrix3r& getUnshearTrsf() const { return _unshearTrsf; }
+  Vector3r unshearPt(const Vector3r& pt) const { return _unshearTrsf * pt; }
+  Vector3r intrShiftPos(const Vector3i& cellDist) const { return hSize * cellDist.cast<Real>(); }
+
+ private:
+  friend struct LayoutProbe;
+};
+
+// Forces and torques per body and thread: a member of Scene.
+class ForceContainer {
+  vector<vector<Vector3r>> _forceData;
+  vector<vector<Vector3r>> _torqueData;
+  alignas(8) unsigned char hidden_[256];
+
+ public:
+  ForceContainer() = delete;
+  ForceContainer(const ForceContainer&) = delete;
+  ~ForceContainer();
+  void addMaxId(int id);
+  void addForce(int id, const Vector3r& force);
+  void addTorque(int id, const Vector3r& torque);
+  // Sums the contributions of the threads; must be called before reading.
+  void sync();
+  const Vector3r& getForce(int id);
+  const Vector3r& getTorque(int id);
+
+ private:
+  friend struct LayoutProbe;
+};
+
+// The energy table of O.energy.
+class EnergyTracker : public Serializable {
+  alignas(8) unsigned char hidden_[152];
+
+ public:
+  EnergyTracker() = delete;
+  ~EnergyTracker() override;
+  void setItem_py(const string& name, Real value);
+};
 
 class Scene : public Serializable {
   const unsigned int hostNameMax = 255;
@@ -55,9 +133,46 @@ class Scene : public Serializable {
  public:
   Scene() = delete;
   ~Scene() override;
-  bool timeStepperPresent();
-  bool timeStepperActive();
   void moveToNextTimeStep();
+};
+
+// Draws the scene in YADE's 3D view; it exists only in a yade with a window.
+class OpenGLRenderer : public Serializable {
+ public:
+  OpenGLRenderer() = delete;
+  ~OpenGLRenderer() override;
+  // Creates a functor of every class that draws.
+  void init();
+};
+
+class ClassFactory : public Singleton<ClassFactory> {
+  alignas(8) unsigned char libraryManagerAndMap_[136];
+
+ protected:
+  virtual ~ClassFactory();
+
+ public:
+  std::list<string> pluginClasses;
+
+  ClassFactory() = delete;
+  ClassFactory(const ClassFactory&) = delete;
+  virtual string getClassName() const;
+  virtual string getBaseClassName(int i) const;
+
+  bool registerFactorable(string name, Factorable* (*create)(),
+                          shared_ptr<Factorable> (*createShared)(), void* (*createPureCustom)());
+  void registerPluginClasses(const char* fileAndClasses[]);
+};
+
+class Omega : public Singleton<Omega> {
+ public:
+  Omega() = delete;
+  Omega(const Omega&) = delete;
+  void loadPlugins(vector<string> pluginFiles);
+  const shared_ptr<Scene>& getScene() const;
+  void createSimulationLoop();
+  bool isRunning();
+  void pause();
 };
 
 }  // namespace yade

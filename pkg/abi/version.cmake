@@ -43,8 +43,7 @@ function(yadefrag_check_virtuals)
     COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/check_virtuals.py ${YADEFRAG_YADE_VERSION} ${dump}
             ${stamp}
     DEPENDS ${declarations} ${abi_dir}/layout_checks.cpp ${version_files}
-            ${abi_dir}/tools/check_virtuals.py ${abi_dir}/tools/class_dump.py
-            ${CMAKE_CURRENT_SOURCE_DIR}/publish/archives.hpp
+            ${abi_dir}/tools/check_virtuals.py ${CMAKE_CURRENT_SOURCE_DIR}/publish/archives.hpp
     COMMENT "Comparing the virtual functions of pkg/abi with those of YADE ${YADEFRAG_YADE_VERSION}"
     COMMAND_EXPAND_LISTS VERBATIM)
   add_custom_target(yadefrag_abi DEPENDS ${stamp})

@@ -1,10 +1,18 @@
-// Python attributes of the colliders.
+// Colliders in Python: attributes, and what scripts ask them.
 
 #include <boost/mpl/vector.hpp>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "collider/search_collider.hpp"
+#include "entries/surface_segment.hpp"
+#include "search/contact_search.hpp"
 
 namespace yadefrag {
+
+using yade::Body;
+using yade::Vector3r;
 
 Attributes SearchCollider::attributes() {
   using C = SearchCollider;
@@ -99,6 +107,64 @@ void SearchCollider::pyExtra(const yade::py::object& pyClass) {
           },
           py::default_call_policies(), boost::mpl::vector<void, yade::Collider&, const Newton&>()),
       "The integrator that requests searches; found in O.engines at every step.");
+}
+
+std::vector<BoxPair> SearchCollider::entryPairs() {
+  const std::vector<std::uint8_t>& isSegment = boxes_.isSegment();
+  if (isSegment.empty()) return {};
+  std::vector<Box> boxes(boxes_.boxes().begin(), boxes_.boxes().end());
+  for (std::size_t id = 0; id < boxes.size(); ++id)
+    if (id >= isSegment.size() || isSegment[id] == 0) boxes[id] = Box::absent();
+  std::vector<BoxPair> pairs = overlappingPairs(boxes);
+  const auto& bodies = scene->bodies->body;
+  std::erase_if(pairs, [&](const BoxPair& pair) {
+    const Body *first = bodies[pair.first.value].get(), *second = bodies[pair.second.value].get();
+    if (!first || !second || !mayMeet(first, second)) return true;
+    const auto& a = static_cast<const SurfaceSegment&>(*first->shape);
+    const auto& b = static_cast<const SurfaceSegment&>(*second->shape);
+    // Pieces created by scripts are one rigid body.
+    return a.component == b.component && !(a.component >= 0 && a.selfContact);
+  });
+  return pairs;
+}
+
+/// Bodies whose present bounds, without sweeps, overlap `bound`.
+yade::vector<Body::id_t> SearchCollider::probeBoundingVolume(const yade::Bound& bound) {
+  if (periodic_)
+    throw std::invalid_argument(getClassName() +
+                                ".probeBoundingVolume: not possible in a periodic scene.");
+  yade::vector<Body::id_t> found;
+  if (!search_ || boxes_.boxes().empty()) return found;
+  std::vector<BoxId> near;
+  search_->findOverlaps(
+      {{bound.min[0], bound.min[1], bound.min[2]}, {bound.max[0], bound.max[1], bound.max[2]}},
+      near);
+  for (const BoxId id : near) {
+    const auto& bodies = scene->bodies->body;
+    if (id.value >= bodies.size() || !bodies[id.value] || !bodies[id.value]->bound) continue;
+    const Body& body = *bodies[id.value];
+    const Vector3r sweep = Vector3r::Constant(body.bound->sweepLength);
+    const Vector3r moved = body.state->se3.position - body.bound->refPos;
+    const Vector3r low = body.bound->min + sweep + moved;
+    const Vector3r high = body.bound->max - sweep + moved;
+    if ((low.array() <= bound.max.array()).all() && (high.array() >= bound.min.array()).all())
+      found.push_back(body.getId());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void SearchCollider::pySetAttr(const yade::string& key, const yade::py::object& value) {
+  if (key == "newton")
+    newton = yade::py::extract<yade::shared_ptr<yade::NewtonIntegrator>>(value)();
+  else
+    Collider::pySetAttr(key, value);
+}
+
+yade::py::dict SearchCollider::pyDict() const {
+  yade::py::dict result = Collider::pyDict();
+  result["newton"] = newton;
+  return result;
 }
 
 }  // namespace yadefrag

@@ -1,12 +1,15 @@
 #include "collider/body_boxes.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <typeinfo>
 
-#include "collider/error_messages.hpp"
+#include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
-#include "entries/surface_segment.hpp"
 
 namespace yadefrag {
 namespace {
@@ -42,6 +45,8 @@ bool isEmpty(const Bound& bound) {
 bool isGood(const Box& box) {
   return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
 }
+
+std::string text(const Vector3r& v) { return fmt::format("({:g}, {:g}, {:g})", v[0], v[1], v[2]); }
 
 }  // namespace
 
@@ -186,8 +191,14 @@ bool BodyBoxes::isGoodBody(const yade::Body* body, std::size_t id) const {
 void BodyBoxes::throwBadBody(const yade::Body& body, std::size_t id) const {
   const bool isSphere = kinds_[id] == Kind::kSphere;
   const Vector3r& at = isSphere ? balls_[id].centre : body.state->se3.position;
-  if (!at.allFinite()) throwBadPosition(id, at);
-  throwBadRadius(id, balls_[id].radius);
+  if (!at.allFinite())
+    throw InputError(fmt::format(
+        "Body #{} is at {}, which is not finite: the simulation has become unstable (is O.dt too "
+        "large?) or the position was set wrongly.",
+        id, text(at)));
+  throw InputError(fmt::format(
+      "Body #{} has an inverted bound: the radius of its sphere is {:g}; it must not be negative.",
+      id, balls_[id].radius));
 }
 
 /// The functors compute boxes without sweep: each is then enlarged by an individual sweep.
@@ -220,7 +231,12 @@ void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene&
   Bound& bound = *body->bound;
   isSplit_ |= body->getIsSubdomain();
   if (body->getIsSubdomain() && isEmpty(bound)) return;
-  if (!isGood(toBox(bound.min, bound.max))) throwBadBound(id, bound);
+  if (!isGood(toBox(bound.min, bound.max)))
+    throw InputError(
+        fmt::format("Body #{} has an inverted bound or one that is not a number: from {} to {}; "
+                    "its shape or its "
+                    "orientation is wrong.",
+                    id, text(bound.min), text(bound.max)));
   // A body that no longer requests a bound keeps its present one, as in YADE.
   if (body->shape && body->isBounded()) {
     if (shapeKinds_.of(*body->shape) == ShapeKind::kSegment) {

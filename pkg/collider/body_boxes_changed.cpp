@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "collider/body_boxes.hpp"
-#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 

@@ -11,12 +11,10 @@ class LebesgueCollider final : public Published<LebesgueCollider, SearchCollider
   static constexpr const char* kName = "LebesgueCollider";
   static constexpr const char* kDoc =
       "Contact search by position codes on the Lebesgue (Morton) curve, for any body with an Aabb, "
-      "in "
-      "place of InsertionSortCollider: the same contacts, faster, without tuning. Diekmann, "
+      "in place of InsertionSortCollider: the same contacts, faster, without tuning. Diekmann, "
       "Hungershoefer, Lux, Taenzer, Wierum, Efficient contact search for finite element analysis, "
       "ECCOMAS 2000, section 4. Raises RuntimeError naming the body if a position is not finite or "
-      "a "
-      "bound is inverted; the scene is then unchanged.";
+      "a bound is inverted; the scene is then unchanged.";
   LebesgueCollider() : Published(SearchMethod::kLebesgue) {}
 };
 
@@ -26,8 +24,7 @@ class LinearCodeCollider final
   static constexpr const char* kName = "LinearCodeCollider";
   static constexpr const char* kDoc =
       "As LebesgueCollider, with position boxes numbered row by row (LPC: Oldenburg and Nilsson, "
-      "Int. "
-      "J. Numer. Meth. Eng. 37, 1994): the paper's first rival, to compare with.";
+      "Int. J. Numer. Meth. Eng. 37, 1994): the paper's first rival, to compare with.";
   LinearCodeCollider() : Published(SearchMethod::kLinearCode) {}
 };
 
@@ -37,8 +34,7 @@ class HierarchyCollider final
   static constexpr const char* kName = "HierarchyCollider";
   static constexpr const char* kDoc =
       "As LebesgueCollider, with a tree of boxes (HO: Zhong and Nilsson, Comp. Struct. 33, 1989): "
-      "the "
-      "paper's second rival, to compare with.";
+      "the paper's second rival, to compare with.";
   HierarchyCollider() : Published(SearchMethod::kHierarchy) {}
 };
 

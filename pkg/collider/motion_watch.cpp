@@ -5,7 +5,6 @@
 
 namespace yadefrag {
 
-using yade::Body;
 using yade::NewtonIntegrator;
 using yade::Scene;
 

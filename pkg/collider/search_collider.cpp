@@ -1,17 +1,18 @@
 #include "collider/search_collider.hpp"
 
-#include <omp.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
-#include "collider/error_messages.hpp"
+#include "abi/helpers.hpp"
+#include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/running.hpp"
-#include "search/contact_search.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {
@@ -32,7 +33,7 @@ std::array<Lattice::Vector, 3> periodsOf(const yade::Cell& cell) {
 
 /// One search. The scene is not changed before every body has been checked.
 void SearchCollider::action() try {
-  const int threads = threadsToUse();
+  const int threads = threadsOf(*this);
   const auto before = std::tuple(verletDist, interval, lastIter_);
   try {
     chooseVerletDist();
@@ -74,16 +75,81 @@ void SearchCollider::searchAll(int threads) {
   countWork(bodies, bodies, halves);
 }
 
-int SearchCollider::threadsToUse() const {
-  const int most = omp_get_max_threads();
-  return ompThreads > 0 ? std::min(ompThreads, most) : most;
+/// True if the results of the last search are still valid for bodies that did not move.
+bool SearchCollider::mayKeep() const {
+  return keptWith_ == choices() && search_ && strideActive_ && !doSort &&
+         !scene->interactions->dirty && !scene->isPeriodic && !periodic_ && verletDist > 0 &&
+         targetInterv > 0 && searchCounts_ == countComparisons &&
+         interactions_.madeByOthers(*scene) <= 0;
+}
+
+/// Returns false if so many bodies have changed that all must be searched.
+bool SearchCollider::searchChanged(int threads) {
+  SweepRule rule = chooseSweeps();
+  const double soon = tolerance::kLookAhead * interval;
+  rule.lookAhead = soon * scene->dt;
+  // If bodies are added at every step, the others are checked once in that time only.
+  const bool quick = quickCheck_ && static_cast<double>(scene->iter - lastCheck_) < soon;
+  const auto most =
+      static_cast<std::size_t>(std::max(remainingWork() / tolerance::kChangeWork, 0.));
+  if (!boxes_.prepareChanged(*scene, *boundDispatcher, rule, most, quick, threads)) return false;
+  // The interactions of erased bodies were erased with them. If any other interaction was erased,
+  // it may have to be created again by a full search.
+  if (interactions_.madeByOthers(*scene) < 0 && !someErased()) return false;
+  const Comparisons before = search_->comparisons();
+  search_->setThreads(threads);
+  search_->change(boxes_.boxes(), boxes_.changed());
+  findPairs([this] { search_->findPairsOfChanged(near_.pairs); });
+  comparisons = static_cast<long>(search_->comparisons().total() - before.total());
+  comparisonsTotal += comparisons;
+  searched = static_cast<long>(boxes_.changed().size());
+  const auto& changed = boxes_.changed();
+  const auto isChanged = [&](BoxId id) {
+    return std::binary_search(changed.begin(), changed.end(), id) ? 1 : 0;
+  };
+  const double halves = keepNear(
+      threads, [&](const BoxPair& pair) { return isChanged(pair.first) + isChanged(pair.second); });
+  boxes_.commit(*scene, threads);
+  interactions_.applyChanged(
+      *scene, near_, boxes_.boxes(), boxes_.changed(),
+      [this](const Body* a, const Body* b) { return mayMeet(a, b); },
+      [this](Body::id_t id1, Body::id_t id2) { return isStillNear(id1, id2); });
+  if (!quick) lastCheck_ = scene->iter;
+  searchedSinceAll_ += boxes_.changed().size();
+  countWork(quick ? 0 : static_cast<double>(boxes_.boxes().size()),
+            static_cast<double>(boxes_.changed().size()), halves);
+  return true;
+}
+
+/// All bodies are searched when the searches of changed bodies have cost as much as a full search.
+/// For any sequence of events the cost is then at most twice that of the cheaper method.
+double SearchCollider::remainingWork() const {
+  return static_cast<double>(scene->bodies->body.size()) -
+         tolerance::kChangeWork * static_cast<double>(searchedSinceAll_);
+}
+
+bool SearchCollider::someErased() const {
+  const auto& bodies = scene->bodies->body;
+  const auto& changed = boxes_.changed();
+  return std::any_of(changed.begin(), changed.end(), [&](BoxId id) { return !bodies[id.value]; });
+}
+
+bool SearchCollider::isStillNear(Body::id_t id1, Body::id_t id2) const {
+  const BoxPair pair{BoxId(static_cast<std::size_t>(id1)), BoxId(static_cast<std::size_t>(id2))};
+  Nearness unused;
+  return overlaps(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value]) &&
+         isNear(pair, SphereReach(boxes_.balls(), 0), unused);
 }
 
 /// A negative verletDist is a multiple of the smallest radius. Without any sphere it is kept for
 /// later. (YADE would set it to 0 permanently; a scene that a factory fills would then be searched
 /// at every step.)
 void SearchCollider::chooseVerletDist() {
-  if (!std::isfinite(verletDist)) throwBadVerletDist(getClassName(), verletDist);
+  if (!std::isfinite(verletDist))
+    throw InputError(fmt::format(
+        "{}.verletDist is {:g}: it must be a length in m, 0, or minus a multiple of the smallest "
+        "radius.",
+        getClassName(), verletDist));
   if (verletDist >= 0) return;
   double least = INFINITY;
   for (const auto& body : scene->bodies->body) {
@@ -183,25 +249,6 @@ void SearchCollider::removeSegmentPairs() {
   });
 }
 
-std::vector<BoxPair> SearchCollider::entryPairs() {
-  const std::vector<std::uint8_t>& isSegment = boxes_.isSegment();
-  if (isSegment.empty()) return {};
-  std::vector<Box> boxes(boxes_.boxes().begin(), boxes_.boxes().end());
-  for (std::size_t id = 0; id < boxes.size(); ++id)
-    if (id >= isSegment.size() || isSegment[id] == 0) boxes[id] = Box::absent();
-  std::vector<BoxPair> pairs = overlappingPairs(boxes);
-  const auto& bodies = scene->bodies->body;
-  std::erase_if(pairs, [&](const BoxPair& pair) {
-    const Body *first = bodies[pair.first.value].get(), *second = bodies[pair.second.value].get();
-    if (!first || !second || !mayMeet(first, second)) return true;
-    const auto& a = static_cast<const SurfaceSegment&>(*first->shape);
-    const auto& b = static_cast<const SurfaceSegment&>(*second->shape);
-    // Pieces created by scripts are one rigid body.
-    return a.component == b.component && !(a.component >= 0 && a.selfContact);
-  });
-  return pairs;
-}
-
 bool SearchCollider::isNear(const BoxPair& pair, const SphereReach& reach, Nearness& out) const {
   if (!scene->isPeriodic) return !trueHalo || reach.mayTouch(pair, Vector3r::Zero(), out.byHalf);
   const yade::Cell& cell = *scene->cell;
@@ -214,9 +261,13 @@ bool SearchCollider::isNear(const BoxPair& pair, const SphereReach& reach, Nearn
   const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};
   const PeriodicOverlap meets =
       periodicOverlap(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value], rules);
+  // YADE's text, since scripts may search for it, preceded by the body.
   if (meets.kind == PeriodicOverlap::kTooLarge)
-    throwTooLarge(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
-                  rules.size[static_cast<std::size_t>(meets.axis)]);
+    throw InputError(fmt::format(
+        "Body #{} spans over half of the cell size {:g} (axis={}): Body larger than half of the "
+        "cell size encountered. See allowBiggerThanPeriod and Cell.flipFlippable.",
+        meets.secondTooLarge ? pair.second.value : pair.first.value,
+        rules.size[static_cast<std::size_t>(meets.axis)], meets.axis));
   out.cellDist = yade::Vector3i(meets.shift[0], meets.shift[1], meets.shift[2]);
   return meets.kind == PeriodicOverlap::kOverlap;
 }
@@ -284,44 +335,5 @@ bool SearchCollider::isActivated() {
 }
 
 void SearchCollider::invalidatePersistentData() { doSort = true; }
-
-/// Bodies whose present bounds, without sweeps, overlap `bound`.
-yade::vector<Body::id_t> SearchCollider::probeBoundingVolume(const yade::Bound& bound) {
-  if (periodic_)
-    throw std::invalid_argument(getClassName() +
-                                ".probeBoundingVolume: not possible in a periodic scene.");
-  yade::vector<Body::id_t> found;
-  if (!search_ || boxes_.boxes().empty()) return found;
-  std::vector<BoxId> near;
-  search_->findOverlaps(
-      {{bound.min[0], bound.min[1], bound.min[2]}, {bound.max[0], bound.max[1], bound.max[2]}},
-      near);
-  for (const BoxId id : near) {
-    const auto& bodies = scene->bodies->body;
-    if (id.value >= bodies.size() || !bodies[id.value] || !bodies[id.value]->bound) continue;
-    const Body& body = *bodies[id.value];
-    const Vector3r sweep = Vector3r::Constant(body.bound->sweepLength);
-    const Vector3r moved = body.state->se3.position - body.bound->refPos;
-    const Vector3r low = body.bound->min + sweep + moved;
-    const Vector3r high = body.bound->max - sweep + moved;
-    if ((low.array() <= bound.max.array()).all() && (high.array() >= bound.min.array()).all())
-      found.push_back(body.getId());
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-void SearchCollider::pySetAttr(const yade::string& key, const yade::py::object& value) {
-  if (key == "newton")
-    newton = yade::py::extract<yade::shared_ptr<yade::NewtonIntegrator>>(value)();
-  else
-    Collider::pySetAttr(key, value);
-}
-
-yade::py::dict SearchCollider::pyDict() const {
-  yade::py::dict result = Collider::pyDict();
-  result["newton"] = newton;
-  return result;
-}
 
 }  // namespace yadefrag

@@ -1,18 +1,19 @@
 #pragma once
 // Common base of the three colliders: the interface between YADE and a contact search.
 
+#include <fmt/core.h>
+
 #include <memory>
 #include <optional>
-#include <tuple>
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
-#include "collider/error_messages.hpp"
 #include "collider/free_memory.hpp"
 #include "collider/interaction_update.hpp"
 #include "collider/interval.hpp"
 #include "collider/motion_watch.hpp"
 #include "collider/sphere_reach.hpp"
+#include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "publish/attribute.hpp"
 #include "search/incremental_search.hpp"
@@ -96,7 +97,6 @@ class SearchCollider : public yade::Collider {
   void sceneIsSearched();
   [[nodiscard]] bool bodiesCame() const;
   [[nodiscard]] double cellSlack() const;
-  [[nodiscard]] int threadsToUse() const;
 
   SearchMethod method_;
   std::unique_ptr<IncrementalSearch> search_;
@@ -159,7 +159,11 @@ void SearchCollider::findPairs(Find find) {
   try {
     find();
   } catch (const TooManyPairs&) {
-    throwTooManyPairs(bodies, most, memory_.free());
+    throw RunError(fmt::format(
+        "Of {} bodies more than {} pairs have overlapping bounds; their interactions do not fit "
+        "into the {:g} GB of free memory. Many bodies overlap, or they or verletDist are too large "
+        "for the scene or its periodic cell.",
+        bodies, most, memory_.free() / 1e9));
   }
 }
 

@@ -2,12 +2,17 @@
 // Properties of a shape, besides its bound, that a collider needs: whether it moves rigidly with
 // its body.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
+#include <string>
+#include <string_view>
 #include <typeinfo>
 #include <vector>
 
 #include "abi/yade.hpp"
+#include "entries/surface_segment.hpp"
 
 namespace yadefrag {
 
@@ -50,7 +55,16 @@ class ShapeKinds {
   }
 
  private:
-  static ShapeKind find(const yade::Shape& shape);
+  static ShapeKind find(const yade::Shape& shape) {
+    static constexpr std::array<std::string_view, 10> rigid = {
+        "Facet",    "Box",      "Wall",     "Polyhedra",      "Tetra",
+        "GridNode", "LevelSet", "Cylinder", "PotentialBlock", "PotentialParticle"};
+    const std::string name = shape.getClassName();
+    if (name == "Sphere") return ShapeKind::kSphere;
+    if (name == SurfaceSegment::kName) return ShapeKind::kSegment;
+    const bool isRigid = std::find(rigid.begin(), rigid.end(), name) != rigid.end();
+    return isRigid ? ShapeKind::kRigid : ShapeKind::kFollower;
+  }
   std::vector<ShapeKind> kinds_;
 };
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "abi/helpers.hpp"
 #include "core/tolerances/spheres.hpp"
 
 namespace yadefrag {
@@ -20,11 +21,6 @@ struct Spring {
   double share, depth;  // of the stiffness; m, compression
 };
 using Springs = std::vector<Spring>;
-
-const yade::Body* bodyOf(const yade::Scene& scene, BodyId id) {
-  const auto place = static_cast<std::size_t>(id);
-  return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
-}
 
 std::optional<DiscContact> contactOf(const BoundaryPiece& piece, const yade::Body& sphere) {
   const auto& at = sphere.state->se3.position;
@@ -58,7 +54,7 @@ std::map<BodyId, Springs> springsBefore(const yade::Scene& scene, const ContactS
     if (!bodies.hasBody(EntryId(e))) continue;
     SurfaceSegment& piece = shapeOf(bodies, EntryId(e));
     for (const auto& [id, interaction] : bodies.body(EntryId(e)).intrs) {
-      const yade::Body* const other = bodyOf(scene, id);
+      const yade::Body* const other = bodyAt(scene, id);
       if (!other || !dynamic_cast<const yade::Sphere*>(other->shape.get())) continue;
       Springs& springs = found[id];
       const auto touch = contactOf(piece.piece(), *other);
@@ -131,7 +127,7 @@ void CrackContacts::change(const yade::Scene& scene, const World& world, const E
   const BoundaryPieces pieces(world.surfaces, former);
   std::set<int> spheres(spheres_.begin(), spheres_.end());
   for (auto& [id, before] : known) {
-    const yade::Body& sphere = *bodyOf(scene, id);
+    const yade::Body& sphere = *bodyAt(scene, id);
     Springs after;
     const auto evaluate = [&](EntryId entry) {
       if (!bodies.hasBody(entry) || world.surfaces.isGone(entry)) return;
@@ -167,7 +163,7 @@ void CrackContacts::follow(const yade::Scene& scene, const World& world,
   std::vector<int> spheres;
   std::set<std::pair<int, BodyId>> kept;  // piece and sphere
   for (const BodyId id : spheres_) {
-    const yade::Body* const sphere = bodyOf(scene, id);
+    const yade::Body* const sphere = bodyAt(scene, id);
     if (!sphere || !dynamic_cast<const yade::Sphere*>(sphere->shape.get())) continue;
     const std::vector<EntryId> near = piecesNear(*sphere, bodies);
     // A piece whose overlap is tolerated has no contact, which must not begin while the overlap is

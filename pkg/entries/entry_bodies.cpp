@@ -3,15 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
-#include "entries/entry_frame.hpp"
 #include "entries/node_forces.hpp"
-#include "entries/plane.hpp"
 #include "integrator/sphere_motion.hpp"
 
 namespace yadefrag {
@@ -54,33 +52,6 @@ std::vector<std::uint32_t> materialsAlong(const World& world) {
   return numbers;
 }
 
-/// `known`: what had this number before; another scene has other bodies with the same numbers.
-bool isPresent(const yade::Scene& scene, yade::Body::id_t id, const yade::Body* known) {
-  const auto place = static_cast<std::size_t>(id);
-  if (place >= scene.bodies->size()) return false;
-  const yade::Body* body = scene.bodies->body[place].get();
-  return body && (known == nullptr || body == known) &&
-         dynamic_cast<const SurfaceSegment*>(body->shape.get());
-}
-
-using Bodies = std::vector<yade::shared_ptr<yade::Body>>;
-
-/// `known` is empty if no body has been found yet.
-[[noreturn]] void throwMissing(const yade::Scene& scene, const std::vector<yade::Body::id_t>& ids,
-                               const Bodies& known, yade::Body::id_t id) {
-  bool isAny = false;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    isAny = isAny || isPresent(scene, ids[i], known.empty() ? nullptr : known[i].get());
-  if (!isAny)
-    throw RunError(
-        "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
-        "or O.bodies.clear left them behind); this scene needs a new FESolver.");
-  throw RunError(
-      fmt::format("Body #{} is no longer in the scene, but it is part of the boundary of a body of "
-                  "FESolver: remove whole bodies only, with FESolver.removeBody.",
-                  id));
-}
-
 }  // namespace
 
 BoundaryPiece BoundaryPieces::alone(EntryId entry) const {
@@ -119,16 +90,12 @@ void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
   // The 3D view locks this while it reads the list of bodies; YADE's `insert` does not.
   const std::lock_guard drawing(scene.bodies->drawloopmutex);
   ids_.push_back(scene.bodies->insert(body));
-  bodies_.push_back(body);
-  shapes_.push_back(shape);
-  states_.push_back(body->state);
+  bodies_.push_back({body, shape, body->state});
 }
 
 void EntryBodies::appendNone() {
   ids_.push_back(yade::Body::ID_NONE);
   bodies_.emplace_back();
-  shapes_.emplace_back();
-  states_.emplace_back();
 }
 
 void EntryBodies::add(yade::Scene& scene, const World& world,
@@ -153,11 +120,11 @@ void EntryBodies::follow(yade::Scene& scene, const World& world) {
   if (first == world.surfaces.entries()) return;
   for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
     const EntryId alike = firstOf(world, world.surfaces.component[e]);
-    append(scene, world, EntryId(e), bodies_[alike.value]->material);
+    append(scene, world, EntryId(e), body(alike).material);
     if (!hasBody(EntryId(e))) continue;
-    bodies_[e]->groupMask = bodies_[alike.value]->groupMask;
-    shapes_[e]->color = shapes_[alike.value]->color;
-    shapes_[e]->wire = shapes_[alike.value]->wire;
+    bodies_[e].body->groupMask = body(alike).groupMask;
+    bodies_[e].shape->color = bodies_[alike.value].shape->color;
+    bodies_[e].shape->wire = bodies_[alike.value].shape->wire;
   }
   mapEntries(first);
 }
@@ -165,11 +132,11 @@ void EntryBodies::follow(yade::Scene& scene, const World& world) {
 /// A script must not change these: the shape of FESolver, and the existence of a state and a
 /// material.
 void EntryBodies::requireWhole(std::size_t entry) const {
-  const yade::Body& body = *bodies_[entry];
-  const char* const wrong = body.shape != shapes_[entry]   ? "shape"
-                            : body.state != states_[entry] ? "state"
-                            : !body.material               ? "material"
-                                                           : nullptr;
+  const yade::Body& body = *bodies_[entry].body;
+  const char* const wrong = body.shape != bodies_[entry].shape   ? "shape"
+                            : body.state != bodies_[entry].state ? "state"
+                            : !body.material                     ? "material"
+                                                                 : nullptr;
   if (!wrong) return;
   throw RunError(fmt::format(
       "Body #{} has lost its {}, but it is part of the boundary of a body of FESolver: a "
@@ -186,7 +153,7 @@ bool EntryBodies::haveExcludingMasks() const {
   std::vector<yade::mask_t> masks;
   for (std::size_t e = 0; e < bodies_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
-    const yade::mask_t mask = bodies_[e]->groupMask;
+    const yade::mask_t mask = bodies_[e].body->groupMask;
     if (std::ranges::find(masks, mask) == masks.end()) masks.push_back(mask);
   }
   return std::ranges::any_of(masks, [&](yade::mask_t a) {
@@ -211,9 +178,7 @@ void EntryBodies::drop(yade::Scene& scene, const World& world) {
     idRanges_.clear();
     scene.bodies->erase(ids_[e], false);
     ids_[e] = yade::Body::ID_NONE;
-    bodies_[e].reset();
-    shapes_[e].reset();
-    states_[e].reset();
+    bodies_[e] = {};
   }
   firstOf_.clear();
 }
@@ -236,23 +201,19 @@ void EntryBodies::removeWhere(yade::Scene& scene, Goes goes) {
       if (hasBody(EntryId(e))) scene.bodies->erase(ids_[e], false);
       continue;
     }
-    if (shapes_[e]) shapes_[e]->entry = static_cast<int>(kept);
+    if (bodies_[e].shape) bodies_[e].shape->entry = static_cast<int>(kept);
     ids_[kept] = ids_[e];
-    shapes_[kept] = shapes_[e];
-    states_[kept] = states_[e];
     bodies_[kept++] = bodies_[e];
   }
   ids_.resize(kept);
   bodies_.resize(kept);
-  shapes_.resize(kept);
-  states_.resize(kept);
   mapEntries(0);
   scene.doSort = true;
 }
 
 const yade::Body* EntryBodies::anyBody() const {
-  for (const auto& body : bodies_)
-    if (body) return body.get();
+  for (const Entry& entry : bodies_)
+    if (entry.body) return entry.body.get();
   return nullptr;
 }
 
@@ -261,34 +222,39 @@ void EntryBodies::requireAll(const yade::Scene& scene) {
   const auto& present = scene.bodies->body;
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
-    const auto id = static_cast<std::size_t>(ids_[e]);
-    if (id >= present.size() || present[id] != bodies_[e])
-      throwMissing(scene, ids_, bodies_, ids_[e]);
+    if (bodyAt(present, ids_[e]) != bodies_[e].body.get()) throwMissing(scene, EntryId(e));
   }
+}
+
+void EntryBodies::throwMissing(const yade::Scene& scene, EntryId missing) const {
+  bool isAny = false;
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    const yade::Body* body = bodyAt(scene, ids_[e]);
+    // Another scene has other bodies with the same numbers.
+    const bool isKnown = body && (bodies_.empty() || body == bodies_[e].body.get());
+    isAny = isAny || (isKnown && dynamic_cast<const SurfaceSegment*>(body->shape.get()));
+  }
+  if (!isAny)
+    throw RunError(
+        "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
+        "or O.bodies.clear left them behind); this scene needs a new FESolver.");
+  throw RunError(
+      fmt::format("Body #{} is no longer in the scene, but it is part of the boundary of a body of "
+                  "FESolver: remove whole bodies only, with FESolver.removeBody.",
+                  ids_[missing.value]));
 }
 
 void EntryBodies::findBodies(const yade::Scene& scene) {
   const auto& present = scene.bodies->body;
-  std::vector<yade::shared_ptr<yade::Body>> bodies;
-  std::vector<yade::shared_ptr<SurfaceSegment>> shapes;
-  std::vector<yade::shared_ptr<yade::State>> states;
-  for (const yade::Body::id_t id : ids_) {
-    if (id == yade::Body::ID_NONE) {
-      bodies.emplace_back();
-      shapes.emplace_back();
-      states.emplace_back();
-      continue;
-    }
-    const auto place = static_cast<std::size_t>(id);
-    if (place >= present.size() || !present[place]) throwMissing(scene, ids_, {}, id);
-    bodies.push_back(present[place]);
-    shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
-    states.push_back(present[place]->state);
-    if (!shapes.back()) throwMissing(scene, ids_, {}, id);
+  std::vector<Entry> found(ids_.size());
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
+    if (!bodyAt(present, ids_[e])) throwMissing(scene, EntryId(e));
+    const auto& body = present[static_cast<std::size_t>(ids_[e])];
+    found[e] = {body, boost::dynamic_pointer_cast<SurfaceSegment>(body->shape), body->state};
+    if (!found[e].shape) throwMissing(scene, EntryId(e));
   }
-  bodies_.swap(bodies);
-  shapes_.swap(shapes);
-  states_.swap(states);
+  bodies_.swap(found);
 }
 
 /// In two passes: the tangent of an adjacent piece must be exactly the number that is computed for
@@ -310,12 +276,12 @@ void EntryBodies::update(const World& world, const RestOfStep& rest, int threads
   inParts([&](std::size_t e) {
     // Bodies are scattered in memory: prefetch.
     constexpr std::size_t ahead = 6;
-    if (e + ahead < shapes_.size()) {
-      request(shapes_[e + ahead].get(), 64, sizeof(SurfaceSegment));
-      request(states_[e + ahead].get(), offsetof(yade::State, se3), sizeof(yade::State));
+    if (e + ahead < bodies_.size()) {
+      request(bodies_[e + ahead].shape.get(), 64, sizeof(SurfaceSegment));
+      request(bodies_[e + ahead].state.get(), offsetof(yade::State, se3), sizeof(yade::State));
     }
     const BoundaryPiece& piece = pieces_[e];
-    SurfaceSegment& shape = *shapes_[e];
+    SurfaceSegment& shape = *bodies_[e].shape;
     shape.kind = static_cast<int>(surfaces.piece[e]);  // cracks turn arcs into straight pieces
     shape.halo = margin;
     shape.start = inSpace(piece.start);
@@ -323,7 +289,7 @@ void EntryBodies::update(const World& world, const RestOfStep& rest, int threads
     shape.middle = inSpace(piece.middle);
     shape.before = inSpace(pieces_[surfaces.prev[e].value].tangentAtEnd());
     shape.after = inSpace(pieces_[surfaces.next[e].value].tangentAtStart());
-    setState(*states_[e], EntryFrame(surfaces, EntryId(e)), nodes, rest);
+    setState(*bodies_[e].state, EntryFrame(surfaces, EntryId(e)), nodes, rest);
   });
 }
 
@@ -345,15 +311,13 @@ void EntryBodies::collectForces(yade::Scene& scene, const World& world,
     if (force == Vec2{} && torque == 0) continue;
     requireWhole(e);
     if (forces.empty()) forces.resize(world.model.nodes.size());
-    shares.add(EntryId(e), *bodies_[e], force, torque);
+    shares.add(EntryId(e), body(EntryId(e)), force, torque);
   }
 }
 
 void EntryBodies::restore(std::vector<yade::Body::id_t> ids) {
   ids_ = std::move(ids);
   bodies_.clear();
-  shapes_.clear();
-  states_.clear();
   mapEntries(0);
 }
 

@@ -85,13 +85,20 @@ class EntryBodies {
   }
   /// The first body; null if there is none.
   [[nodiscard]] const yade::Body* anyBody() const;
-  [[nodiscard]] const yade::Body& body(EntryId entry) const { return *bodies_[entry.value]; }
+  [[nodiscard]] const yade::Body& body(EntryId entry) const { return *bodies_[entry.value].body; }
 
   /// For archives: the bodies are searched in the scene when they are needed.
   void restore(std::vector<yade::Body::id_t> ids);
 
  private:
+  /// What a body had when it was added or found; null for a removed entry.
+  struct Entry {
+    yade::shared_ptr<yade::Body> body = {};
+    yade::shared_ptr<SurfaceSegment> shape = {};
+    yade::shared_ptr<yade::State> state = {};
+  };
   void requireWhole(std::size_t entry) const;
+  [[noreturn]] void throwMissing(const yade::Scene& scene, EntryId missing) const;
   template <class Goes>
   void removeWhere(yade::Scene& scene, Goes goes);
   void append(yade::Scene& scene, const World& world, EntryId entry,
@@ -102,9 +109,7 @@ class EntryBodies {
   [[nodiscard]] EntryId firstOf(const World& world, ComponentId component);
 
   std::vector<yade::Body::id_t> ids_;
-  std::vector<yade::shared_ptr<yade::Body>> bodies_;
-  std::vector<yade::shared_ptr<SurfaceSegment>> shapes_;  // shapes of the bodies
-  std::vector<yade::shared_ptr<yade::State>> states_;
+  std::vector<Entry> bodies_;  // empty after loading, until they are found
   std::vector<BoundaryPiece> pieces_;
   std::vector<EntryId> entries_;  // by body id
   IdRanges idRanges_;             // computed on demand; empty: not yet

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
-#include "core/errors.hpp"
+#include "abi/helpers.hpp"
 #include "core/tolerances/contact.hpp"
-#include "entries/plane.hpp"
-#include "entries/sphere_contact.hpp"
 
 namespace yadefrag {
 namespace {
@@ -18,8 +16,6 @@ bool areOneFace(Vec2 a, Vec2 b) {
 }
 
 using yade::Vector3r;
-
-Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
 
 bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {
   return surfaces.next[a.value] == b || surfaces.next[b.value] == a;
@@ -43,9 +39,15 @@ struct RollingSpheres::Contact {
 
 /// As in YADE's laws; the opposite force acts on the sphere.
 void RollingSpheres::Contact::addForce(yade::Scene& scene, double by, bool fromNextStep) const {
-  const Vector3r force = by * inSpace(leftOf(direction));
+  const Vector3r force = by * inSpace(-rightOf(direction));
   phys->shearForce += force;
-  if (!fromNextStep) addContactForce(scene, *contact, *geom, force);
+  if (fromNextStep) return;
+  for (const auto& [id, sign] : {std::pair(contact->getId1(), -1.), {contact->getId2(), 1.}}) {
+    const Vector3r part = sign * force;
+    scene.forces.addForce(id, part);
+    const Vector3r& place = bodyAt(scene, id)->state->se3.position;
+    scene.forces.addTorque(id, (geom->contactPoint - place).cross(part));
+  }
 }
 
 /// Contacts of all spheres with pieces, by sphere, then piece.
@@ -125,25 +127,12 @@ void RollingSpheres::store(const Contacts& contacts) {
 }
 
 void RollingSpheres::archive(AnyArchive& archive) {
-  std::vector<int> ids;
-  std::vector<double> values;
-  for (const Held& held : held_) {
-    ids.insert(ids.end(), {held.sphere, held.piece});
-    values.insert(values.end(), {held.shear, held.normal, held.direction.x, held.direction.y});
-  }
-  archive.item("rollingIds", ids);
-  archive.item("rollingForces", values);
-  if (archive.isLoading()) {
-    if (values.size() != 2 * ids.size() || ids.size() % 2 != 0)
-      throw InputError(
-          "The saved state of FESolver is damaged (its contacts with spheres are invalid); load "
-          "another save.");
-    held_.clear();
-    for (std::size_t i = 0; 2 * i < ids.size(); ++i) {
-      const double* value = values.data() + 4 * i;
-      held_.push_back({ids[2 * i], ids[2 * i + 1], value[0], value[1], {value[2], value[3]}});
-    }
-  }
+  archive.rows("rollingIds", "rollingForces", held_,
+               "of FESolver is damaged (its contacts with spheres are invalid)",
+               [](Held& one, const auto& each) {
+                 each(one.sphere), each(one.piece), each(one.shear), each(one.normal);
+                 each(one.direction.x), each(one.direction.y);
+               });
 }
 
 }  // namespace yadefrag

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "entries/plane.hpp"
+#include "abi/helpers.hpp"
 #include "search/contact_search.hpp"
 #include "step/overlap_check.hpp"
 

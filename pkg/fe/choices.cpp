@@ -144,16 +144,20 @@ template const ValueKind& kindOf<RateChoice>();
 template const ValueKind& kindOf<HardeningChoice>();
 template const ValueKind& kindOf<ToleranceChoice>();
 
+namespace {
+
 template <class Choice>
-void convertChoice() {
+void convert() {
   py::converter::registry::push_back(&FromPython<Choice>::accepts, &FromPython<Choice>::construct,
                                      py::type_id<Choice>());
   py::to_python_converter<Choice, ToPython<Choice>>();
 }
 
-template void convertChoice<SofteningChoice>();
-template void convertChoice<RateChoice>();
-template void convertChoice<HardeningChoice>();
-template void convertChoice<ToleranceChoice>();
+}  // namespace
+
+void convertChoices() {
+  convert<SofteningChoice>(), convert<RateChoice>(), convert<HardeningChoice>();
+  convert<ToleranceChoice>();
+}
 
 }  // namespace yadefrag

@@ -73,9 +73,8 @@ struct ToleranceChoice {
   }
 };
 
-/// Registers the conversions of one of these: from a str, or from pairs of numbers or a number
-/// (ValueError or TypeError for others), and to a str, a list of tuples or a float.
-template <class Choice>
-void convertChoice();
+/// Registers the conversions of these: from a str, or from pairs of numbers or a number (ValueError
+/// or TypeError for others), and to a str, a list of tuples or a float.
+void convertChoices();
 
 }  // namespace yadefrag

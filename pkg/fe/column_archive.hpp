@@ -140,15 +140,22 @@ class ColumnArchive {
     });
   }
 
-  /// Of existing rows: curves that consist of points.
+  /// Of existing rows: curves that consist of points, or lists of points.
   template <class C, class Read>
   void curves(const char* countsName, const char* pointsName, std::vector<C>& rows, Read read) {
     using Curve = std::remove_cvref_t<decltype(read(rows.front()))>;
-    using Point = std::remove_cvref_t<decltype(read(rows.front()).points().front())>;
+    constexpr bool isCurve = requires(Curve curve) { curve.points(); };
+    const auto pointsOf = [&](C& c) -> decltype(auto) {
+      if constexpr (isCurve)
+        return read(c).points();
+      else
+        return read(c);
+    };
+    using Point = std::remove_cvref_t<decltype(pointsOf(rows.front()).front())>;
     std::vector<std::uint32_t> counts;
     std::vector<Point> points;
     for (C& c : rows) {
-      const std::vector<Point>& own = read(c).points();
+      const std::vector<Point>& own = pointsOf(c);
       counts.push_back(static_cast<std::uint32_t>(own.size()));
       points.insert(points.end(), own.begin(), own.end());
     }
@@ -160,7 +167,8 @@ class ColumnArchive {
         if (counts[i] > points.size() - at) refuse(std::string(pointsName) + " has a wrong length");
         const auto begin = points.begin() + static_cast<std::ptrdiff_t>(at);
         std::vector<Point> own(begin, begin + counts[i]);
-        if (!Curve::isValid(own)) refuse(std::string(pointsName) + " is invalid");
+        if constexpr (isCurve)
+          if (!Curve::isValid(own)) refuse(std::string(pointsName) + " is invalid");
         read(rows[i]) = Curve(std::move(own));
         at += counts[i];
       }

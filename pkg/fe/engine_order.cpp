@@ -42,13 +42,18 @@ bool movesBefore(const Engines& engines, std::size_t from, const yade::Engine& s
   return false;
 }
 
+Engines aliveIn(const yade::Scene& scene) {
+  Engines alive;
+  for (const auto& engine : scene.engines)
+    if (!engine->dead) alive.push_back(engine.get());
+  return alive;
+}
+
 }  // namespace
 
 void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& solver,
                                 bool anyMovable) {
-  Engines alive;
-  for (const auto& engine : scene.engines)
-    if (!engine->dead) alive.push_back(engine.get());
+  const Engines alive = aliveIn(scene);
   const auto own = std::ranges::find(alive, &solver);
   if (own == alive.end()) return;
   for (auto behind = own; behind != alive.end(); ++behind)
@@ -69,24 +74,15 @@ void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& so
   }
 }
 
-bool EngineOrder::isUnchanged(const yade::Scene& scene, const yade::Engine& solver) const {
-  return std::equal(scene.engines.begin(), scene.engines.end(), checked_.begin(), checked_.end(),
-                    [&](const auto& engine, const Item& item) {
-                      const yade::Engine& one = *engine;
-                      return item == Item{&typeid(one), &one == &solver, one.dead};
-                    });
-}
-
 bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) {
-  if (isUnchanged(scene, solver)) return false;
-  checked_.clear();
   std::vector<Item> items;
-  Engines alive;
   for (const auto& engine : scene.engines) {
     const yade::Engine& one = *engine;
     items.push_back({&typeid(one), &one == &solver, one.dead});
-    if (!one.dead) alive.push_back(&one);
   }
+  if (items == checked_) return false;
+  checked_.clear();
+  const Engines alive = aliveIn(scene);
   const auto count = std::count(alive.begin(), alive.end(), &solver);
   if (count > 1)
     throw std::invalid_argument(

@@ -28,7 +28,6 @@ class EngineOrder {
     bool isSolver, isDead;
     bool operator==(const Item&) const = default;
   };
-  bool isUnchanged(const yade::Scene& scene, const yade::Engine& solver) const;
 
   std::vector<Item> checked_;  // the engines of the last `require`
   bool spheresMoveFirst_ = false;

@@ -175,35 +175,14 @@ class WorldArchive : ColumnArchive {
     constant("heatCapacity", &P::heatCapacity), constant("heatShare", &P::heatShare);
     constant("cohesion", &P::cohesion), constant("internalFriction", &P::internalFriction);
     constant("dilation", &P::dilation), constant("tensionLimit", &P::tensionLimit);
-    failure(rows);
-    std::vector<std::uint32_t> counts;
-    std::vector<HardeningPoint> points;
-    for (const C& c : rows) {
-      counts.push_back(static_cast<std::uint32_t>(c.plastic.table.size()));
-      points.insert(points.end(), c.plastic.table.begin(), c.plastic.table.end());
-    }
-    value("hardeningCounts", counts);
-    numbers<double>("hardeningPoints", points);
-    if (isLoading()) {
-      if (counts.size() != rows.size()) refuse("hardeningCounts has a wrong length");
-      auto at = points.begin();
-      for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (counts[i] > static_cast<std::size_t>(points.end() - at))
-          refuse("hardeningPoints has a wrong length");
-        rows[i].plastic.table.assign(at, at + counts[i]);
-        at += counts[i];
-      }
-    }
-  }
-
-  template <class C>
-  void failure(std::vector<C>& rows) {
     member("failureStrain", rows, [](C& c) -> double& { return c.plastic.failure.strain; });
     for (std::size_t i = 0; i < 5; ++i)
       member(("failureD" + std::to_string(i + 1)).c_str(), rows,
              [i](C& c) -> double& { return c.plastic.failure.d[i]; });
     member("spallStress", rows, [](C& c) -> double& { return c.plastic.failure.spallStress; });
     member("failureEnergy", rows, [](C& c) -> double& { return c.plastic.failure.energy; });
+    curves("hardeningCounts", "hardeningPoints", rows,
+           [](C& c) -> std::vector<HardeningPoint>& { return c.plastic.table; });
   }
 
   void surfaces(ContactSurfaces& s) {

@@ -2,21 +2,20 @@
 
 #include <fmt/core.h>
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "abi/helpers.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/solver.hpp"
 #include "core/tolerances/step.hpp"
+#include "fe/fe_archive.hpp"
 #include "fe/fe_solver.hpp"
 
 namespace yadefrag {
 
-void FESolver::checkSettings() const {
+void FESettings::check() const {
   const auto refuse = [](const char* name, const std::string& value, const char* right) {
     throw std::invalid_argument(
         fmt::format("FESolver.{} is {}, it must be {}.", name, value, right));
@@ -50,102 +49,77 @@ void FESolver::checkSettings() const {
 
 void FESolver::postLoad(FESolver& /*self*/) {
   try {
-    checkSettings();
+    settings.check();
   } catch (const std::invalid_argument&) {
-    // The world still has the previous values.
-    const StepSettings& step = world_.dynamicsSettings;
-    view = formerView_;
-    passes = world_.contactSettings.passes;
-    contactTolerance.value = world_.contactSettings.constants.stop;
-    halo = world_.contactSettings.halo;
-    damping = step.damping;
-    gravity = formerGravity_;
-    const std::uint64_t most = world_.fracture.maxCracks;
-    maxCracks = most > std::numeric_limits<int>::max() ? -1 : static_cast<int>(most);
-    minFragmentArea = world_.fracture.minFragmentArea;
-    linearViscosity = step.viscosity.linear, quadraticViscosity = step.viscosity.quadratic;
+    settings = former_;
     throw;
   }
   giveSettings();
 }
 
 void FESolver::giveSettings() {
-  world_.contactSettings.passes = passes;
-  world_.contactSettings.halo = halo;
-  world_.contactSettings.constants.stop = contactTolerance.value;
-  world_.dynamicsSettings.damping = damping;
-  formerGravity_ = gravity;
-  formerView_ = view;
-  world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
-  world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
+  former_ = settings;
+  world_.contactSettings.passes = settings.passes;
+  world_.contactSettings.halo = settings.halo;
+  world_.contactSettings.constants.stop = settings.contactTolerance.value;
+  world_.dynamicsSettings.damping = settings.damping;
+  world_.dynamicsSettings.gravity = inPlane(settings.gravity);
+  world_.dynamicsSettings.viscosity = {settings.linearViscosity, settings.quadraticViscosity};
   world_.fracture.maxCracks =
-      maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(maxCracks);
-  world_.fracture.minFragmentArea = minFragmentArea;
-  world_.threads = threadsToUse();
+      settings.maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(settings.maxCracks);
+  world_.fracture.minFragmentArea = settings.minFragmentArea;
+  world_.threads = threadsOf(*this);
 }
 
-int FESolver::threadsToUse() const {
-  const int most = omp_get_max_threads();
-  return ompThreads > 0 ? std::min(ompThreads, most) : most;
+namespace {
+
+template <class Value>
+Attribute setting(const char* name, Value FESettings::*member, const char* doc) {
+  return attribute(name, &FESolver::settings, member, doc, yade::Attr::triggerPostLoad);
 }
 
-Attributes FESolver::contactAttributes() {
-  using C = FESolver;
-  using yade::Attr::triggerPostLoad;
-  return attributeList(
-      attribute("passes", &C::passes,
-                "1: of two surfaces the points of the finer one and the sharp corners of the other "
-                "must not "
-                "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
-                triggerPostLoad),
-      attribute("contactTolerance", &C::contactTolerance,
-                "Sweeps over the contacts of a step end when none changes a gap or a slip by more "
-                "than this part of the largest displacement: from 1e-9 to 0.1, or 'fine' (1e-4), "
-                "'default' (0.003) or 'coarse' (0.01). It trades time for overlaps and energy.",
-                triggerPostLoad),
-      attribute(
-          "halo", &C::halo,
-          "Width of the strip around a boundary in which contact is expected, relative to the "
-          "shortest segment, at most 0.5; 0: as wide as the bodies' speed requires. Results "
-          "do not depend on it, but the number of searches does.",
-          triggerPostLoad));
-}
+}  // namespace
 
 Attributes FESolver::attributes() {
-  using C = FESolver;
-  using yade::Attr::triggerPostLoad;
-  const Attributes others = attributeList(
-      attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
-      attribute("gravity", &C::gravity,
-                "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
-                "z = 0. Until it is set, it follows that of a NewtonIntegrator in O.engines.",
-                triggerPostLoad),
+  using C = FESettings;
+  return attributeList(
+      setting("passes", &C::passes,
+              "1: of two surfaces the points of the finer one and the sharp corners of the other "
+              "must not "
+              "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case."),
+      setting("contactTolerance", &C::contactTolerance,
+              "Sweeps over the contacts of a step end when none changes a gap or a slip by more "
+              "than this part of the largest displacement: from 1e-9 to 0.1, or 'fine' (1e-4), "
+              "'default' (0.003) or 'coarse' (0.01). It trades time for overlaps and energy."),
+      setting("halo", &C::halo,
+              "Width of the strip around a boundary in which contact is expected, relative to the "
+              "shortest segment, at most 0.5; 0: as wide as the bodies' speed requires. Results "
+              "do not depend on it, but the number of searches does."),
+      setting("damping", &C::damping, "Mass-proportional damping (1/s)."),
+      setting("gravity", &C::gravity,
+              "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
+              "z = 0. Until it is set, it follows that of a NewtonIntegrator in O.engines."),
       attribute(
-          "takesGravity", &C::takesGravity,
+          "takesGravity", &FESolver::takesGravity,
           "`gravity` has x and y of NewtonIntegrator's gravity in each step. Setting `gravity` "
           "sets this to False, unless `engines` does; setting this to True undoes that."),
-      attribute("linearViscosity", &C::linearViscosity,
-                "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",
-                triggerPostLoad),
-      attribute("quadraticViscosity", &C::quadraticViscosity,
-                "Coefficient of the quadratic bulk viscosity, in compression; 0: none, 1.2 is "
-                "usual.",
-                triggerPostLoad),
-      attribute("maxCracks", &C::maxCracks,
-                "Maximum total number of edges that crack; -1: no limit.", triggerPostLoad),
-      attribute("minFragmentArea", &C::minFragmentArea,
-                "Detached fragments with a smaller area (m², stress-free) are removed from "
-                "the scene, and counted in `dropped`, except held ones. 0: none is removed.",
-                triggerPostLoad),
-      attribute("rigidBodies", &C::rigidBodies,
+      setting("linearViscosity", &C::linearViscosity,
+              "Coefficient of the linear bulk viscosity; 0: none, .06 is usual."),
+      setting("quadraticViscosity", &C::quadraticViscosity,
+              "Coefficient of the quadratic bulk viscosity, in compression; 0: none, 1.2 is "
+              "usual."),
+      setting("maxCracks", &C::maxCracks,
+              "Maximum total number of edges that crack; -1: no limit."),
+      setting("minFragmentArea", &C::minFragmentArea,
+              "Detached fragments with a smaller area (m², stress-free) are removed from "
+              "the scene, and counted in `dropped`, except held ones. 0: none is removed."),
+      attribute("rigidBodies", &FESolver::rigidBodies,
                 "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
                 "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "
                 "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."),
-      attribute("view", &C::view,
-                "Meaning of the bodies' colours in YADE's 3D view: 'component', 'fragment', or "
-                "'mises', from blue at 0 to red at the largest.",
-                triggerPostLoad));
-  return joined({contactAttributes(), others});
+      setting("view", &C::view,
+              "Meaning of the bodies' colours in YADE's 3D view: 'component', 'fragment', or "
+              "'mises', from blue at 0 to red at the largest."));
 }
 
 void FESolver::archiveMore(AnyArchive& archive) {

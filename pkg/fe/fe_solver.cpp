@@ -4,26 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iostream>
 #include <mutex>
-#include <numbers>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
-#include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
-#include "core/wrong_value.hpp"
-#include "dynamics/yielding_state.hpp"
 #include "entries/sphere_overlap.hpp"
-#include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
-#include "fracture/brittle_checks.hpp"
-#include "fracture/coarse_mesh.hpp"
 #include "integrator/curve_integrator.hpp"
 
 namespace yadefrag {
@@ -49,32 +40,20 @@ void FESolver::action() try {
   const std::lock_guard guard(betweenSteps_);
   given_.begin(*scene);
   if (bodies_.ids().empty()) return;
-  if (scene->isPeriodic)
-    throw std::invalid_argument("FESolver: the scene is periodic, but FE bodies cannot be.");
-  const bool enginesAreNew = order_.require(*scene, *this);
-  bodies_.requireAll(*scene);
-  giveSettings();
-  followFlow();
-  checkScene(enginesAreNew);
-  followRigid(enginesAreNew);
-  if (world_.search.isDue()) checkBodies();
+  followScene();
   const std::uint64_t dropped = world_.dropped.count, searches = world_.numSearches();
-  const std::size_t known = world_.warnings.size();
+  const StepLength length(scene->dt, world_.lastDt);
+
+  // From YADE's bodies: forces on nodes, motion of rigid boundaries.
   collectForces();
   functions_.giveValues(world_, scene->dt);
   rigid_.giveVelocities(*scene, world_, integrator(true));
-  const StepLength length(scene->dt, world_.lastDt);
   balance_.begin(*scene, world_, bodies_,
                  {integrator(false) != nullptr, order_.spheresMoveFirst()});
-  try {
-    world_.step(scene->dt);
-  } catch (const TimeStepError& error) {
-    throw std::invalid_argument("O.dt: " + std::string(error.what()) + byTimeStepper(*scene));
-  } catch (const InputError& error) {
-    throw std::invalid_argument(error.what());
-  }
-  loadedForces_.clear();
-  warn(known);
+
+  stepWorld();
+
+  // To YADE's bodies: forces on rigid ones, then new faces, places and velocities of the pieces.
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length, given_);
     rigid_.warnOfArcs(world_);
@@ -91,6 +70,32 @@ void FESolver::action() try {
 } catch (const std::exception& error) {
   noteStop(error.what());
   throw;
+}
+
+/// What a script or another engine has changed since the last step.
+void FESolver::followScene() {
+  if (scene->isPeriodic)
+    throw std::invalid_argument("FESolver: the scene is periodic, but FE bodies cannot be.");
+  const bool enginesAreNew = order_.require(*scene, *this);
+  bodies_.requireAll(*scene);
+  giveSettings();
+  followFlow();
+  checkScene(enginesAreNew);
+  followRigid(enginesAreNew);
+  if (world_.search.isDue()) checkBodies();
+}
+
+void FESolver::stepWorld() {
+  const std::size_t known = world_.warnings.size();
+  try {
+    world_.step(scene->dt);
+  } catch (const TimeStepError& error) {
+    throw std::invalid_argument("O.dt: " + std::string(error.what()) + byTimeStepper(*scene));
+  } catch (const InputError& error) {
+    throw std::invalid_argument(error.what());
+  }
+  loadedForces_.clear();
+  warn(known);
 }
 
 /// Reduces O.dt if plastic flow has made triangles so flat that it is above the critical step.
@@ -110,8 +115,7 @@ void FESolver::checkBodies() {
   if (bodies_.haveExcludingMasks())
     report(
         {"Masks of FE bodies exclude interactions between them, but have no effect on contact of "
-         "FE "
-         "bodies with each other; they have with spheres and other bodies of YADE."});
+         "FE bodies with each other; they have with spheres and other bodies of YADE."});
 }
 
 /// Of spheres and other bodies on the boundary.
@@ -131,12 +135,13 @@ void FESolver::warn(std::size_t known) const {
 
 /// Takes over the gravity of the scene, or reports that spheres have another one.
 void FESolver::takeGravity(const yade::NewtonIntegrator* newton) {
+  const yade::Vector3r& gravity = settings.gravity;
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
   if (takesGravity) {
     // One that is not finite is no setting; the step refuses it.
     world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
     const yade::Vector3r taken(theirs[0], theirs[1], 0);
-    if (taken.allFinite() && taken != gravity) gravity = formerGravity_ = taken;
+    if (taken.allFinite() && taken != gravity) settings.gravity = former_.gravity = taken;
     return;
   }
   if (!newton || (gravity == comparedGravity_ && theirs == comparedNewton_)) return;
@@ -196,8 +201,7 @@ std::string FESolver::overlapWithSphere(std::size_t first) const {
   if (!found) return {};
   return fmt::format(
       "Sphere #{} overlaps an FE body by {:.3g} m, {:.3g} of its radius, and is pushed out with "
-      "the "
-      "energy of that overlap; put it outside.",
+      "the energy of that overlap; put it outside.",
       found->sphere, found->depth, found->depth / found->radius);
 }
 
@@ -280,193 +284,8 @@ void FESolver::trackEnergy() const {
   set("feFriction", ledger.friction);
   set("feFracture", ledger.fracture);
   set("feDamping", ledger.damping);
-  if (minFragmentArea > 0) set("feDropped", ledger.dropped);
+  if (settings.minFragmentArea > 0) set("feDropped", ledger.dropped);
   set("feOutside", -ledger.external);  // energy that left: the sum of all is constant
-}
-
-/// Bodies of two solvers would have no contact with each other.
-void FESolver::requireAlone(const yade::Scene& here) const {
-  const auto& present = here.bodies->body;
-  for (std::size_t id = 0; id < present.size(); ++id) {
-    if (bodies_.entryOf(static_cast<yade::Body::id_t>(id)) != EntryId::none() || !present[id])
-      continue;
-    const auto* segment = dynamic_cast<const SurfaceSegment*>(present[id]->shape.get());
-    if (segment && segment->entry >= 0)
-      throw InputError(
-          "The scene has bodies of another FESolver; add this one to that solver, or they would "
-          "not touch each other.");
-  }
-}
-
-namespace {
-
-/// Throws InputError for a brittle material that cannot crack.
-BodyMaterial bodyMaterialOf(const FEMat& material) {
-  BodyMaterial one;
-  one.material = {material.young, material.poisson, material.density, material.planeStress};
-  if (!(material.frictionAngle >= 0 && material.frictionAngle < std::numbers::pi / 2))
-    throw InputError(
-        wrongValue("frictionAngle", material.frictionAngle, "", "at least 0 and below π/2 (rad)"));
-  one.friction = std::tan(material.frictionAngle);
-  if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material)) {
-    one.brittle = {.tensileStrength = brittle->tensileStrength,
-                   .fractureEnergy = brittle->fractureEnergy,
-                   .shearFactor = brittle->shearFactor,
-                   .shearEnergyFactor = brittle->shearEnergyFactor,
-                   .weibullModulus = brittle->weibullModulus,
-                   .strengthScatter = brittle->strengthScatter,
-                   .seed = static_cast<std::uint64_t>(brittle->seed),
-                   .referenceVolume = brittle->referenceVolume,
-                   .softening = brittle->softening.law(),
-                   .rate = brittle->rateEffect.law(),
-                   .rateEnergyPower = brittle->rateEnergyPower};
-    checkBrittle(one.brittle);
-  }
-  if (const auto* plastic = dynamic_cast<const PlasticFEMat*>(&material)) {
-    one.plastic = plastic->constants();
-    one.brittle.weibullModulus = plastic->weibullModulus;
-    one.brittle.strengthScatter = plastic->strengthScatter;
-    one.brittle.seed = static_cast<std::uint64_t>(plastic->seed);
-    one.brittle.referenceVolume = plastic->referenceVolume;
-    if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
-  }
-  if (const auto* frictional = dynamic_cast<const FrictionalFEMat*>(&material)) {
-    if (!(frictional->internalFriction >= 0 && frictional->internalFriction < std::numbers::pi / 2))
-      throw InputError(
-          fmt::format("internalFriction is {:g}; it must be at least 0 and below π/2 (rad).",
-                      frictional->internalFriction));
-    if (!(frictional->dilationAngle >= 0 &&
-          frictional->dilationAngle <= frictional->internalFriction))
-      throw InputError(
-          fmt::format("dilationAngle is {:g}; it must be at least 0 and at most internalFriction.",
-                      frictional->dilationAngle));
-    one.plastic = frictional->constants();
-    if (frictional->cohesion == 0 && frictional->internalFriction == 0)
-      throw InputError("cohesion and internalFriction are 0; one of them must be positive.");
-    if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
-  }
-  return one;
-}
-
-/// BrittleFEMat.coarseMesh of each material.
-std::vector<CoarseMesh> choicesOf(const std::vector<yade::shared_ptr<FEMat>>& materials) {
-  std::vector<CoarseMesh> choices;
-  for (const auto& one : materials) {
-    const auto* brittle = dynamic_cast<const BrittleFEMat*>(one.get());
-    choices.push_back(brittle ? coarseMeshNamed(brittle->coarseMesh) : CoarseMesh::kWarn);
-  }
-  return choices;
-}
-
-/// Changes `spec.places`. Returns a sentence on that, or an empty one.
-std::string fitToCoarseMesh(const TriangleMesh& mesh, BodySpec& spec,
-                            std::span<const CoarseMesh> choices) {
-  const BodyMaterial& one = spec;
-  const std::span<const BodyMaterial> all =
-      spec.materials.empty() ? std::span(&one, 1) : std::span(spec.materials.materials);
-  const FittedValues fitted =
-      fitToMesh(mesh, {all, choices, spec.materials.ofTriangle}, spec.places);
-  if (fitted.triangles == 0) return {};
-  std::string changed;
-  if (fitted.leastStrength < 1)
-    changed = fmt::format("the strength is reduced, to {:.3g} of it", fitted.leastStrength);
-  if (fitted.mostEnergy > 1)
-    changed += fmt::format("{}the fracture energy is raised, to {:.3g} times it",
-                           changed.empty() ? "" : ", ", fitted.mostEnergy);
-  return fmt::format(
-      "{} of {} triangles do not resolve the cohesive zone: {} for the largest (coarseMesh).",
-      fitted.triangles, mesh.triangles.size(), changed);
-}
-
-/// Throws InputError if the new body is where a sphere is.
-void requireApartFromSpheres(const yade::Scene& scene, const TriangleMesh& mesh,
-                             const BodySpec& spec) {
-  std::vector<std::array<Vec2, 3>> triangles;
-  const auto at = [&](std::uint32_t node) {
-    return spec.displacement.empty() ? mesh.nodes[node]
-                                     : mesh.nodes[node] + spec.displacement[node];
-  };
-  if (!spec.displacement.empty() && spec.displacement.size() != mesh.nodes.size()) return;
-  for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({at(a), at(b), at(c)});
-  const auto found = deepestOverlap(scene, 0, 1, triangles, tolerance::kPlacedOverlap);
-  if (found)
-    throw InputError(
-        fmt::format("The new body overlaps sphere #{} by {:.3g} m, {:.3g} of its radius; it may "
-                    "touch others at "
-                    "the start, but not overlap them.",
-                    found->sphere, found->depth, found->depth / found->radius));
-}
-
-/// If the initial stress of a body is outside of its yield surface.
-std::string startWarning(const Model& model, ComponentId component) {
-  const Component& body = model.components[component.value];
-  const std::size_t count = body.yields() ? countYielding(model, component) : 0;
-  if (count == 0) return {};
-  return fmt::format(
-      "The initial stress is outside of the yield surface in {} of {} triangles, which flow in the "
-      "first step: take a lower stress, or in plane strain another one across the plane (the "
-      "fourth "
-      "number).",
-      count, body.lastTriangle - body.firstTriangle);
-}
-
-}  // namespace
-
-AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
-                            const std::vector<yade::shared_ptr<FEMat>>& materials) {
-  yade::Scene& here = *yade::Omega::instance().getScene();
-  if (here.isPeriodic) throw InputError("The scene is periodic, but FE bodies cannot be.");
-  bodies_.requireAll(here);
-  requireAlone(here);
-  if (spec.materials.ofTriangle.empty())
-    static_cast<BodyMaterial&>(spec) = bodyMaterialOf(*materials.front());
-  else
-    for (const auto& one : materials) spec.materials.materials.push_back(bodyMaterialOf(*one));
-  if (!spec.selfContact && wholeOf(spec).brittle.cracks())
-    throw InputError(
-        "selfContact is False, but the material is a BrittleFEMat or fails, and its fragments must "
-        "touch each other; it must be True, or the material an FEMat.");
-  const std::vector<CoarseMesh> choices = choicesOf(materials);
-  requireApartFromSpheres(here, mesh, spec);
-  std::string message = fitToCoarseMesh(mesh, spec, choices);
-  const ComponentId component = world_.addBody(mesh, spec);
-  if (message.empty() && std::ranges::find(choices, CoarseMesh::kWarn) != choices.end())
-    message = cohesiveZoneWarning(world_.model, world_.fracture.edges, component);
-  if (!spec.stress.empty()) {
-    const std::string yields = startWarning(world_.model, component);
-    if (!yields.empty()) message += (message.empty() ? "" : " ") + yields;
-  }
-  scene = &here;
-  bodies_.add(here, world_, materials);
-  for (const auto& one : materials) materials_.add(one);
-  return {static_cast<int>(component.value), std::move(message)};
-}
-
-/// Nodes have moved, or sides were divided.
-void FESolver::followBonds() {
-  yade::Scene& here = *yade::Omega::instance().getScene();
-  bodies_.follow(here, world_);
-  bodies_.update(world_, {}, 1);
-  here.doSort = true;
-}
-
-void FESolver::removeBody(int component) {
-  yade::Scene& here = *yade::Omega::instance().getScene();
-  bodies_.requireAll(here);
-  const auto& components = world_.model.components;
-  const auto index = static_cast<std::size_t>(component);
-  if (component < 0 || index >= components.size() ||
-      components[index].firstTriangle == components[index].lastTriangle)
-    throw InputError(fmt::format("component is {}, which is no body of this FESolver.", component));
-  balance_.forget(world_, ComponentId(index));
-  loadedForces_.clear();
-  bodies_.remove(here, world_, ComponentId(index));
-  world_.removeBody(ComponentId(index));
-}
-
-double FESolver::criticalTimeStep() {
-  giveSettings();
-  return world_.criticalTimeStep();
 }
 
 }  // namespace yadefrag

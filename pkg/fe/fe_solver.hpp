@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -11,8 +10,6 @@
 #include "entries/entry_bodies.hpp"
 #include "entries/rolling.hpp"
 #include "fe/engine_order.hpp"
-#include "fe/fe_archive.hpp"
-#include "fe/material_watch.hpp"
 #include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
@@ -28,6 +25,23 @@ namespace yadefrag {
 struct AddedBody {
   int component;
   std::string message;  ///< on a mesh that does not resolve the cohesive zone; or empty
+};
+
+/// Attributes of FESolver that have limits.
+struct FESettings {
+  int passes = 1;
+  ToleranceChoice contactTolerance;
+  double halo = ContactSettings().halo;
+  double damping = 0;
+  yade::Vector3r gravity = yade::Vector3r::Zero();
+  double linearViscosity = 0;
+  double quadraticViscosity = 0;
+  int maxCracks = -1;
+  double minFragmentArea = 0;
+  std::string view = "component";
+
+  /// Throws std::invalid_argument.
+  void check() const;
 };
 
 class FESolver final : public Published<FESolver, yade::GlobalEngine> {
@@ -68,31 +82,21 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   /// Locked during each step, and during each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
-  int passes = 1;
-  ToleranceChoice contactTolerance;
-  double halo = ContactSettings().halo;
-  double damping = 0;
-  yade::Vector3r gravity = yade::Vector3r::Zero();
+  FESettings settings;
   bool takesGravity = true;
-  double linearViscosity = 0;
-  double quadraticViscosity = 0;
-  int maxCracks = -1;
-  double minFragmentArea = 0;
   bool rigidBodies = true;
-  std::string view = "component";
 
-  static Attributes contactAttributes();
   static Attributes attributes();
   static void pyExtra(SolverClass& solver) {
-    convertChoice<ToleranceChoice>();
     defineArrays(solver), defineBodies(solver), defineMotions(solver);
     defineQuality(solver), defineResults(solver);
   }
   void archiveMore(AnyArchive& archive);
 
  private:
+  void followScene();
+  void stepWorld();
   void requireAlone(const yade::Scene& here) const;
-  void checkSettings() const;
   void giveSettings();
   void checkBodies();
   void collectForces();
@@ -109,7 +113,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void followBonds();
   void updateBodies();
   void trackEnergy() const;
-  [[nodiscard]] int threadsToUse() const;
 
   World world_;
   std::vector<Vec2> loadedForces_;  // of contact, of a saved state, until the next step
@@ -126,8 +129,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   // Both gravities when they were last compared.
   yade::Vector3r comparedGravity_ = yade::Vector3r::Zero(), comparedNewton_ = comparedGravity_;
   ScriptFunctions functions_;
-  yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
-  std::string formerView_ = view;                          // of `view`, likewise
+  FESettings former_;  // the last ones within their limits
   mutable StepLock betweenSteps_;
 };
 

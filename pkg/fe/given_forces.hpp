@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "abi/yade.hpp"
+#include "abi/helpers.hpp"
 
 namespace yadefrag {
 
@@ -17,12 +17,29 @@ class GivenForces {
   };
 
   /// Takes back the forces of the last step, unless they have been reset since.
-  void begin(yade::Scene& scene);
-  void add(yade::Scene& scene, const Given& one);
+  void begin(yade::Scene& scene) {
+    if (all_.empty()) return;
+    if (lastReset(scene.forces) == lastReset_) {
+      for (const Given& one : all_) {
+        scene.forces.addForce(one.id, -one.force);
+        scene.forces.addTorque(one.id, -one.torque);
+      }
+      scene.forces.sync();
+    }
+    all_.clear();
+  }
+  void add(yade::Scene& scene, const Given& one) {
+    scene.forces.addForce(one.id, one.force);
+    scene.forces.addTorque(one.id, one.torque);
+    all_.push_back(one);
+  }
   /// Must be called after all forces and all new bodies of a step: YADE's reset deletes, and
   /// O.forces.f shows, only forces that have been synchronised since the last new body.
   /// NewtonIntegrator does that, too, if there is one.
-  void end(yade::Scene& scene);
+  void end(yade::Scene& scene) {
+    lastReset_ = lastReset(scene.forces);
+    scene.forces.sync();
+  }
 
   /// Forces of the last step, in the order of `add`: several for one body.
   [[nodiscard]] const std::vector<Given>& all() const { return all_; }

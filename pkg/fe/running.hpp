@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "abi/basics.hpp"
+#include "abi/yade.hpp"
 
 namespace yadefrag {
 

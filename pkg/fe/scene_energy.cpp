@@ -9,31 +9,15 @@
 #include <tuple>
 #include <utility>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
-#include "entries/plane.hpp"
-#include "entries/sphere_contact.hpp"
 #include "rigid/rigid_movers.hpp"
 #include "surface/disc_contact.hpp"
 
 namespace yadefrag {
 namespace {
-
-using yade::Vector3r;
-
-Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
-
-const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
-  const auto place = static_cast<std::size_t>(id);
-  return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
-}
-
-/// (rad/s) About z.
-double spinBetween(const yade::Quaternionr& before, const yade::Quaternionr& after, double dt) {
-  const yade::Quaternionr turn = after * before.conjugate();
-  return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * M_PI) / dt;
-}
 
 /// The spring of a sphere and a piece. Pieces that share an overlap at a junction have a share of
 /// its stiffness each, and so may pieces that a crack has separated.
@@ -150,8 +134,7 @@ void SceneEnergy::noteOverlap(const World& world, const yade::Body& body, Touchi
   const bool isFast = approach > tolerance::kFastSphere * radius;
   deep_ = fmt::format(
       "Step {}, time {:.3g} s: sphere #{} overlaps an FE body by {:.3g} m, {:.3g} of its radius, "
-      "and "
-      "may pass through; {}",
+      "and may pass through; {}",
       world.steps, world.time, body.id, depth, depth / radius,
       isFast ? fmt::format("it moves by {:.3g} of its radius in a step: take a shorter step.",
                            approach / radius)
@@ -187,7 +170,8 @@ void SceneEnergy::measureMotion(const yade::Scene& scene, const World& world) {
     if (!body || one.isSettled) continue;
     const Vec2 way = inPlane(body->state->se3.position) - one.place;
     const Vec2 velocity = inPlane(body->state->vel);
-    const double spin = spinBetween(one.orientation, body->state->se3.orientation, dt);
+    const yade::Quaternionr turn = body->state->se3.orientation * one.orientation.conjugate();
+    const double spin = std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * M_PI) / dt;
     // A script may have brought it to another place.
     const bool isMoved = norm(way - dt * velocity) > tolerance::kMostMotion * world.search.shortest;
     const Vec2 after = isMoved ? velocity : 1 / dt * way;
@@ -284,7 +268,7 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
     for (int k = 0; k < piece.foot.count; ++k)
       velocity += piece.foot.weight[k] * mean(piece.foot.node[k]);
     const Vec2 apart = mean(piece.last) - mean(piece.first);
-    velocity += cross(piece.along, apart) / dot(piece.along, piece.along) * leftOf(piece.arm);
+    velocity += cross(piece.along, apart) / dot(piece.along, piece.along) * -rightOf(piece.arm);
     Touching& own = touching_[piece.touching];
     own.normal.work += world.lastDt * dot(piece.normal, velocity);
     own.tangent.work += world.lastDt * dot(piece.tangent, velocity);
@@ -297,8 +281,7 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
     const auto [own, isNew] = rigid.emplace(one.id, touching_.size());
     if (isNew) touching_.push_back(touchingOf(*body, true));
     // Of others the boundary follows a prescribed motion, if need be a step later.
-    const yade::Body* const mover = body->isClumpMember() ? bodyAt(scene, body->clumpId) : body;
-    if (!mover || !mover->isDynamic()) continue;
+    if (!moverOf(scene, *body).isDynamic()) continue;
     Part& part = touching_[own->second].normal;
     part.force += -inPlane(one.force), part.moment -= one.torque[2];
     part.work -= one.work;
@@ -328,9 +311,10 @@ double SceneEnergy::kineticEnergy(const yade::Scene& scene) const {
   std::set<const yade::State*> counted;
   for (const Touching& one : touching_) {
     const yade::Body* body = bodyAt(scene, one.id);
-    if (body && body->isClumpMember()) body = bodyAt(scene, body->clumpId);
-    if (!body || !body->isDynamic() || !counted.insert(body->state.get()).second) continue;
-    const yade::State& state = *body->state;
+    if (!body) continue;
+    const yade::Body& mover = moverOf(scene, *body);
+    const yade::State& state = *mover.state;
+    if (!mover.isDynamic() || !counted.insert(&state).second) continue;
     twice += state.mass * state.vel.squaredNorm() +
              state.inertia.dot(state.angVel.cwiseProduct(state.angVel));
   }
@@ -383,51 +367,33 @@ std::string SceneEnergy::message(const World& world) {
 }
 
 void SceneEnergy::archive(AnyArchive& archive) {
-  std::vector<double> sums = {sums_.work, sums_.elastic,  sums_.friction, sums_.least,  sums_.rigid,
-                              sums_.most, sums_.reported, sums_.stiffest, sums_.deepest};
-  std::vector<int> ids;
-  std::vector<double> numbers;
-  const auto flatten = [&](Touching& one, auto&& each) {
-    for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
-    each(one.spin);
-    for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
-    for (Part* part : {&one.normal, &one.tangent}) {
-      each(part->force.x), each(part->force.y), each(part->moment), each(part->elastic);
-      each(part->held), each(part->work), each(part->ownWork);
-    }
-  };
-  constexpr std::size_t kFlags = 6, kEach = 23;
-  for (Touching& one : touching_) {
-    ids.insert(ids.end(),
-               {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring, one.isRemoved});
-    flatten(one, [&](double& value) { numbers.push_back(value); });
-  }
+  constexpr double Sums::*kSums[] = {&Sums::work,     &Sums::elastic,  &Sums::friction,
+                                     &Sums::least,    &Sums::rigid,    &Sums::most,
+                                     &Sums::reported, &Sums::stiffest, &Sums::deepest};
+  constexpr const char* kDamaged = "of FESolver is damaged (its energy balance is invalid)";
+  if (archive.isLoading()) *this = {};
+  std::vector<double> sums;
+  for (const auto one : kSums) sums.push_back(sums_.*one);
   archive.item("sceneEnergies", sums);
-  archive.item("sceneContacts", ids);
-  archive.item("sceneContactValues", numbers);
+  archive.rows("sceneContacts", "sceneContactValues", touching_, kDamaged,
+               [](Touching& one, const auto& each) {
+                 each(one.id), each(one.isRigid), each(one.slips), each(one.isSettled);
+                 each(one.isSpring), each(one.isRemoved);
+                 for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
+                 each(one.spin);
+                 for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
+                 for (Part* part : {&one.normal, &one.tangent}) {
+                   each(part->force.x), each(part->force.y), each(part->moment);
+                   each(part->elastic), each(part->held), each(part->work), each(part->ownWork);
+                 }
+               });
   archive.item("sceneStep", step_);
   int open = isOpen_ ? 1 : 0;
   archive.item("sceneIsOpen", open);
-  if (archive.isLoading()) {
-    if (sums.size() != 9 || ids.size() % kFlags != 0 ||
-        numbers.size() != ids.size() / kFlags * kEach)
-      throw InputError(
-          "The saved state of FESolver is damaged (its energy balance is invalid); load another "
-          "save.");
-    const long step = step_;
-    *this = {};
-    step_ = step, isOpen_ = open != 0;
-    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]};
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < ids.size(); i += kFlags) {
-      Touching one;
-      one.id = ids[i];
-      one.isRigid = ids[i + 1] != 0, one.slips = ids[i + 2] != 0, one.isSettled = ids[i + 3] != 0;
-      one.isSpring = ids[i + 4] != 0, one.isRemoved = ids[i + 5] != 0;
-      flatten(one, [&](double& value) { value = numbers[next++]; });
-      touching_.push_back(one);
-    }
-  }
+  isOpen_ = open != 0;
+  if (sums.size() != std::size(kSums))
+    throw InputError("The saved state " + std::string(kDamaged) + "; load another save.");
+  for (std::size_t i = 0; i < sums.size(); ++i) sums_.*kSums[i] = sums[i];
 }
 
 }  // namespace yadefrag

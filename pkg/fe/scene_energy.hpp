@@ -13,7 +13,7 @@
 
 #include "abi/yade.hpp"
 #include "entries/entry_bodies.hpp"
-#include "entries/entry_frame.hpp"
+#include "entries/node_forces.hpp"
 #include "fe/given_forces.hpp"
 #include "publish/any_archive.hpp"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "abi/body_at.hpp"
+#include "abi/helpers.hpp"
 #include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"

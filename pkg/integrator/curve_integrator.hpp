@@ -1,16 +1,50 @@
 #pragma once
 // A drop-in for YADE's NewtonIntegrator.
 
+#include <cstddef>
 #include <vector>
 
-#include "integrator/body_memory.hpp"
 #include "integrator/id_ranges.hpp"
 #include "integrator/sphere_motion.hpp"
-#include "integrator/summed_forces.hpp"
+#include "memory/block_memory.hpp"
 #include "publish/attribute.hpp"
 #include "publish/published.hpp"
 
 namespace yadefrag {
+
+/// Forces and torques on bodies, read without a call for each body: of one step, after
+/// ForceContainer::sync. YADE's arrays may end before the last body: those behind have no force.
+class SummedForces {
+ public:
+  SummedForces() = default;
+  SummedForces(yade::ForceContainer& forces, std::size_t numBodies) {
+    if (numBodies == 0) return;
+    // A YADE without OpenMP makes its arrays longer where they end before a body.
+    const auto last = static_cast<int>(numBodies) - 1;
+    forces.getForce(last), forces.getTorque(last);
+    forces_ = &forces.getForce(0), torques_ = &forces.getTorque(0);
+    // YADE's function returns an element of its array, or for bodies behind its end another zero.
+    const auto isInArray = [&](std::size_t id) {
+      return &forces.getForce(static_cast<int>(id)) == forces_ + id;
+    };
+    std::size_t above = numBodies;
+    while (size_ < above) {
+      const std::size_t middle = size_ + (above - size_) / 2;
+      isInArray(middle) ? size_ = middle + 1 : above = middle;
+    }
+  }
+  [[gnu::always_inline]] [[nodiscard]] FourLanes forceOn(std::size_t id) const {
+    return id < size_ ? loadThree(forces_[id].data()) : FourLanes{};
+  }
+  [[gnu::always_inline]] [[nodiscard]] FourLanes torqueOn(std::size_t id) const {
+    return id < size_ ? loadThree(torques_[id].data()) : FourLanes{};
+  }
+
+ private:
+  const yade::Vector3r* forces_ = nullptr;
+  const yade::Vector3r* torques_ = nullptr;
+  std::size_t size_ = 0;
+};
 
 class MotionIntegrator : public yade::NewtonIntegrator {
  public:
@@ -67,8 +101,7 @@ class CurveIntegrator final
       "NewtonIntegrator for many bodies, with the same attributes and the same results to the last "
       "bit. Bodies whose rotation is integrated as a sphere's are moved by the same formulas, with "
       "vector instructions and their memory requested ahead; clumps and aspherical bodies by "
-      "NewtonIntegrator, and so are "
-      "all bodies while O.trackEnergy is set.";
+      "NewtonIntegrator, and so are all bodies while O.trackEnergy is set.";
 };
 
 }  // namespace yadefrag

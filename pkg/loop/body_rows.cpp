@@ -4,7 +4,7 @@
 #include <cmath>
 #include <typeinfo>
 
-#include "abi/body_at.hpp"
+#include "abi/helpers.hpp"
 #include "core/request.hpp"
 
 namespace yadefrag {

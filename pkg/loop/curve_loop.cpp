@@ -1,10 +1,8 @@
 #include "loop/curve_loop.hpp"
 
-#include <omp.h>
-
-#include <algorithm>
 #include <cstddef>
 
+#include "abi/helpers.hpp"
 #include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
@@ -38,8 +36,7 @@ void ContactLoop::action() try {
 
   const std::size_t size = scene->interactions->size();
   if (size == 0) return;
-  const int most = omp_get_max_threads();
-  threads = threadsFor(size, ompThreads > 0 ? std::min(ompThreads, most) : most);
+  threads = threadsFor(size, threadsOf(*this));
   const PairStep step(*this, *scene);
   if (step.functors() != functors_) rows_.forget();
   functors_ = step.functors();

@@ -2,8 +2,8 @@
 // A drop-in for YADE's InteractionLoop.
 
 #include "loop/body_rows.hpp"
-#include "loop/contact_memory.hpp"
 #include "loop/pair_step.hpp"
+#include "memory/block_memory.hpp"
 #include "publish/attribute.hpp"
 #include "publish/published.hpp"
 
@@ -86,12 +86,11 @@ class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::Interacti
   static constexpr const char* kDoc =
       "InteractionLoop for many contacts of spheres: CurveLoop([Ig2...], [Ip2...], [Law2...]), "
       "with the same arguments, functors, attributes and results. Contacts of "
-      "Ig2_Sphere_Sphere_ScGeom and of "
-      "Law2_ScGeom_FrictPhys_CundallStrack (while no energies are traced) are computed by the loop "
-      "itself with the same formulas and the same bits; all others by YADE's functors. Forces are "
-      "added in the order of O.interactions: if all laws are of this kind, every bit is the same "
-      "for any number of threads. Raises RuntimeError if no functor accepts the materials or the "
-      "contact, where InteractionLoop ends the process.";
+      "Ig2_Sphere_Sphere_ScGeom and of Law2_ScGeom_FrictPhys_CundallStrack (while no energies are "
+      "traced) are computed by the loop itself with the same formulas and the same bits; all "
+      "others by YADE's functors. Forces are added in the order of O.interactions: if all laws are "
+      "of this kind, every bit is the same for any number of threads. Raises RuntimeError if no "
+      "functor accepts the materials or the contact, where InteractionLoop ends the process.";
 };
 
 }  // namespace yadefrag

@@ -12,29 +12,18 @@ struct Expose {
   friend constexpr auto exposed(Tag) { return member; }
 };
 
-struct TwistAxis {
-  friend constexpr auto exposed(TwistAxis);
-};
-template struct Expose<TwistAxis, &yade::ScGeom::twist_axis>;
+#define YADEFRAG_EXPOSE(Tag, member)    \
+  struct Tag {                          \
+    friend constexpr auto exposed(Tag); \
+  };                                    \
+  template struct Expose<Tag, member>
 
-struct OrthonormalAxis {
-  friend constexpr auto exposed(OrthonormalAxis);
-};
-template struct Expose<OrthonormalAxis, &yade::ScGeom::orthonormal_axis>;
+YADEFRAG_EXPOSE(TwistAxis, &yade::ScGeom::twist_axis);
+YADEFRAG_EXPOSE(OrthonormalAxis, &yade::ScGeom::orthonormal_axis);
+YADEFRAG_EXPOSE(GradientTimesCell, &yade::Cell::_vGradTimesPrevH);
+YADEFRAG_EXPOSE(ForceData, &yade::ForceContainer::_forceData);
+YADEFRAG_EXPOSE(TorqueData, &yade::ForceContainer::_torqueData);
 
-struct GradientTimesCell {
-  friend constexpr auto exposed(GradientTimesCell);
-};
-template struct Expose<GradientTimesCell, &yade::Cell::_vGradTimesPrevH>;
-
-struct ForceData {
-  friend constexpr auto exposed(ForceData);
-};
-template struct Expose<ForceData, &yade::ForceContainer::_forceData>;
-
-struct TorqueData {
-  friend constexpr auto exposed(TorqueData);
-};
-template struct Expose<TorqueData, &yade::ForceContainer::_torqueData>;
+#undef YADEFRAG_EXPOSE
 
 }  // namespace yadefrag

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <typeinfo>
 
-#include "abi/body_at.hpp"
+#include "abi/helpers.hpp"
 
 namespace yadefrag {
 

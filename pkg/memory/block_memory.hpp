@@ -145,4 +145,26 @@ class OthersWait {
   std::unique_lock<std::mutex> bodies_, interactions_;
 };
 
+/// Moves bodies, and their states and bounds of YADE's classes State and Aabb, together, in the
+/// order of the bodies, when they are scattered. Objects that anything else than the scene or the
+/// body refers to stay where they are.
+class BodyMemory {
+ public:
+  void endStep(yade::Scene& scene);
+
+ private:
+  ScatterWatch states_;
+};
+
+/// Moves geometry and physics of each contact of YADE's classes ScGeom and FrictPhys together, in
+/// the order of the scene's contacts, when they are scattered. Objects that anything else than the
+/// contact refers to (a variable in Python) stay where they are.
+class ContactMemory {
+ public:
+  void endStep(yade::Scene& scene);
+
+ private:
+  ScatterWatch geometries_;
+};
+
 }  // namespace yadefrag

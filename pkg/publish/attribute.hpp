@@ -3,6 +3,7 @@
 // What depends on the type only is compiled once for each of some ten types (ValueKind): with
 // functions for each class, attribute and archive the compiler took a minute.
 
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cstddef>
@@ -58,6 +59,21 @@ Attribute attribute(const char* name, Value Class::*member, const char* doc, int
   assert(static_cast<yade::Serializable*>(reinterpret_cast<Class*>(64)) ==
          reinterpret_cast<yade::Serializable*>(64));
   return {name, doc, flags, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(member)};
+}
+/// A member of a member.
+template <class Class, class Part, class Value>
+Attribute attribute(const char* name, Part Class::*part, Value Part::*member, const char* doc,
+                    int flags = 0) {
+  const std::ptrdiff_t inPart = std::bit_cast<std::ptrdiff_t>(member);
+  return {name, doc, flags, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(part) + inPart};
+}
+/// An element of an array that is one.
+template <class Class, class Part, class Value, std::size_t kCount>
+Attribute attribute(const char* name, Part Class::*part, std::array<Value, kCount> Part::*member,
+                    std::size_t index, const char* doc) {
+  const auto inPart =
+      std::bit_cast<std::ptrdiff_t>(member) + static_cast<std::ptrdiff_t>(index * sizeof(Value));
+  return {name, doc, 0, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(part) + inPart};
 }
 
 template <class... Each>

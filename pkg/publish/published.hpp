@@ -8,7 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "publish/archive_of.hpp"
+#include "publish/any_archive.hpp"
 #include "publish/attribute.hpp"
 #include "publish/step_lock.hpp"
 
@@ -29,6 +29,32 @@ boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
   if (py::len(kw) > 0) made->pyUpdateAttrs(kw);
   return made;
 }
+
+/// The class index by which YADE's dispatchers identify shapes and materials. Between a new class
+/// and its base: `class Self : public Published<Self, Indexed<Self, Base>, Base>`. A dispatcher
+/// without a functor for Self uses that of Base.
+template <class Self, class Base>
+class Indexed : public Base {
+ public:
+  const int& getClassIndex() const override { return index(); }
+  const int& getBaseClassIndex(int depth) const override {
+    return depth == 1 ? Base::getClassIndex() : Base::getBaseClassIndex(depth - 1);
+  }
+
+ protected:
+  Indexed() {
+    if (index() != -1) return;
+    index() = this->getMaxCurrentlyUsedClassIndexOfKin() + 1;
+    this->incrementMaxCurrentlyUsedClassIndexOfKin();
+  }
+  int& modifyClassIndex() override { return index(); }
+
+ private:
+  static int& index() {
+    static int index = -1;
+    return index;
+  }
+};
 
 // class Self final : public Published<Self, Base, YadeBase>
 //   kName, kDoc          name of the class in Python, and its docstring

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include "publish/archive_of.hpp"
+#include "publish/any_archive.hpp"
 #include "publish/archives.hpp"
 #include "publish/attribute.hpp"
 

@@ -4,11 +4,9 @@
 
 #include "collider/colliders.hpp"
 #include "core/instruction_set.hpp"
-#include "entries/segment_functors.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
-#include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
 #include "integrator/curve_integrator.hpp"
 #include "loop/curve_loop.hpp"

@@ -6,16 +6,15 @@
 #include <cmath>
 #include <utility>
 
+#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/collider.hpp"
 #include "core/tolerances/step.hpp"
-#include "entries/plane.hpp"
 #include "step/overlap_check.hpp"
 
 namespace yadefrag {
 namespace {
 
-using yade::Quaternionr;
 using yade::Vector3r;
 
 /// Extent of all finite-element bodies.
@@ -36,16 +35,6 @@ struct Extent {
 
 /// (m) A side displaced by more than this counts as new.
 double farthestOf(const World& world) { return tolerance::kMostMotion * world.search.shortest; }
-
-double frictionOf(const yade::Body& body) {
-  const auto* material = dynamic_cast<const yade::FrictMat*>(body.material.get());
-  return material ? std::tan(material->frictionAngle) : 0;
-}
-
-const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
-  const auto place = static_cast<std::size_t>(id);
-  return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
-}
 
 /// (s) Time for which the integrator, or none, moves the bodies.
 double movingTime(const yade::Scene& scene, const yade::NewtonIntegrator* newton) {

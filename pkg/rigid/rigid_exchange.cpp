@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "abi/helpers.hpp"
 #include "core/tolerances/spheres.hpp"
-#include "entries/plane.hpp"
 #include "rigid/rigid_bodies.hpp"
 
 namespace yadefrag {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "abi/helpers.hpp"
 #include "core/tolerances/spheres.hpp"
 
 namespace yadefrag {
@@ -38,9 +39,7 @@ Vector3r turned(const yade::Body& body, bool aspherical, const Vector3r& moment)
 }  // namespace
 
 const yade::Body& moverOf(const yade::Scene& scene, const yade::Body& body) {
-  const auto place = static_cast<std::size_t>(body.clumpId);
-  const bool hasClump = body.isClumpMember() && place < scene.bodies->body.size();
-  const yade::Body* clump = hasClump ? scene.bodies->body[place].get() : nullptr;
+  const yade::Body* clump = body.isClumpMember() ? bodyAt(scene, body.clumpId) : nullptr;
   return clump ? *clump : body;
 }
 

@@ -1,6 +1,6 @@
 #include "outline/polygon.hpp"
 #include "outline/polygon_text.hpp"
-#include "rigid/rigid_section.hpp"
+#include "rigid/rigid_outlines.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
 #include "script/definitions.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Acquires Python's lock (the GIL) temporarily.
 
-#include "abi/basics.hpp"
+#include "abi/yade.hpp"
 
 namespace yadefrag {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Releases Python's lock (the GIL) temporarily.
 
-#include "abi/basics.hpp"
+#include "abi/yade.hpp"
 
 namespace yadefrag {
 

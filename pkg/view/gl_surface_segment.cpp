@@ -93,7 +93,7 @@ void Gl1_SurfaceSegment::takePictures() {
     const auto* solver = dynamic_cast<const FESolver*>(engine.get());
     if (!solver) continue;
     const std::unique_lock guard(solver->betweenSteps(), std::try_to_lock);
-    if (guard.owns_lock()) pictures_ = picturesOf(*solver, solver->view);
+    if (guard.owns_lock()) pictures_ = picturesOf(*solver, solver->settings.view);
     return;
   }
 }

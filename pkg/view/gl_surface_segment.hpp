@@ -1,8 +1,6 @@
 #pragma once
 // Finite-element bodies in YADE's 3D view.
 
-#include <tuple>
-
 #include "abi/yade.hpp"
 #include "publish/published.hpp"
 #include "view/body_picture.hpp"
@@ -14,9 +12,8 @@ class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlSh
   static constexpr const char* kName = "Gl1_SurfaceSegment";
   static constexpr const char* kDoc =
       "Draws the bodies of FESolver in the 3D view: their triangles, filled according to "
-      "FESolver.view, "
-      "or, where the SurfaceSegment or the view is drawn in wire, their edges; in black their "
-      "boundaries and open cracks, in red cohesive cracks.";
+      "FESolver.view, or, where the SurfaceSegment or the view is drawn in wire, their edges; in "
+      "black their boundaries and open cracks, in red cohesive cracks.";
   static Attributes attributes() { return {}; }
 
   void go(const yade::shared_ptr<yade::Shape>& shape, const yade::shared_ptr<yade::State>& state,

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "fe/fe_archive.hpp"
-#include "publish/archive_of.hpp"
+#include "publish/any_archive.hpp"
 #include "step/run_result.hpp"
 
 namespace yadefrag::test {

@@ -21,7 +21,6 @@ import tempfile
 import urllib.request
 
 import check_virtuals
-import class_dump
 import make_table
 import versions
 import yade_build
@@ -69,7 +68,7 @@ def compiled(version, source, folder):
         capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(done.stderr)
-    return class_dump.readTables((folder / 'classes.txt').read_text())
+    return check_virtuals.readTables((folder / 'classes.txt').read_text())
 
 
 def main(version, source=None):

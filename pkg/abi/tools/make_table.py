@@ -20,17 +20,11 @@ from build_id import buildId  # noqa: E402
 TABLE = '''#pragma once
 // Made by pkg/abi/tools/make_table.py from pkg/abi/versions/%(version)s.json.
 
-#include "abi/layout_entry.hpp"
-
 #define YADEFRAG_YADE %(number)d
 
-namespace yadefrag {
-
-inline constexpr LayoutEntry kLayout[] = {
+// SIZE(class, bytes), MEMBER(class, member, offset in bytes)
+#define YADEFRAG_LAYOUT(SIZE, MEMBER) \\
 %(rows)s
-};
-
-}  // namespace yadefrag
 '''
 
 MODULE = '''"""This build of yadefrag and its YADE. Made by pkg/abi/tools/make_table.py."""
@@ -52,9 +46,10 @@ ACCEPTED = %(accepted)r
 
 def rows(classes):
     for name, entry in sorted(classes.items()):
-        yield '    {"%s", "", %d},' % (name, entry['size'])
+        yield '  SIZE(%s, %d)' % (name, entry['size'])
         for member, _type, offset in entry['members']:
-            yield '    {"%s", "%s", %d},' % (name, member, offset)
+            if member.isidentifier():  # the others are tables of virtual functions
+                yield '  MEMBER(%s, %s, %d)' % (name, member, offset)
 
 
 def writeIfNew(path, text):
@@ -75,7 +70,7 @@ def main(version, own, folder, module, libraries='', source=None, features=None,
     if source is None:
         facts = known[version]
         writeIfNew(folder / 'layout_table.hpp', TABLE % {
-            'version': version, 'number': versions.number(version), 'rows': '\n'.join(rows(facts['classes']))})
+            'version': version, 'number': versions.number(version), 'rows': ' \\\n'.join(rows(facts['classes']))})
         build = '%s packages it' % facts['system']
     else:
         build = 'built from %s' % source

@@ -24,7 +24,7 @@ import sys
 import sysconfig
 import tempfile
 
-import class_dump
+import check_virtuals
 import versions
 import yade_build
 
@@ -126,7 +126,7 @@ def measure(source, classes, flags):
         run('g++', '-std=c++17', '-O0', '-g', '-gdwarf-4', '-fPIC', '-w', '-c', '-fdump-lang-class',
             '-femit-class-debug-always', '-fno-eliminate-unused-debug-types', '-I' + str(source),
             *flags, 'unit.cpp', '-o', 'unit.o', cwd=folder)
-        tables = class_dump.readTables(next(folder.glob('*.class')).read_text())
+        tables = check_virtuals.readTables(next(folder.glob('*.class')).read_text())
         (folder / 'read.py').write_text(IN_GDB % (names, str(folder / 'found.json')))
         run('gdb', '-batch', '-nx', '-x', str(folder / 'read.py'), str(folder / 'unit.o'))
         found = json.loads((folder / 'found.json').read_text())

@@ -5,7 +5,7 @@ system      the distribution of the package
 sources     its source archive in Debian's pool, and the SHA-256 of that; not every version has it
 run         true if this project has been tested with it; otherwise `import yadefrag` refuses it
 classes     name: size and offsets in bytes, members as [name, type, offset], virtual functions as in
-            class_dump.py
+            check_virtuals.py
 """
 
 import json

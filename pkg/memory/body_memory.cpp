@@ -1,9 +1,8 @@
-#include "integrator/body_memory.hpp"
-
 #include <cstddef>
 #include <vector>
 
 #include "collider/search_collider.hpp"
+#include "memory/block_memory.hpp"
 
 namespace yadefrag {
 

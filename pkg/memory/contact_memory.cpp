@@ -1,6 +1,5 @@
-#include "loop/contact_memory.hpp"
-
 #include "loop/exposed.hpp"
+#include "memory/block_memory.hpp"
 
 namespace yadefrag {
 
