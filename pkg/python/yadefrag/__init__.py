@@ -37,7 +37,6 @@ else:
 
 # Only now, because these need FESolver.
 from yadefrag import io, plots, studies  # noqa: E402
-from yadefrag.about import about  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
 from yadefrag.fe.fields import crackTable  # noqa: E402
 from yadefrag.fe.geometry import circle, rectangle, ring  # noqa: E402
@@ -51,6 +50,7 @@ from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
 from yadefrag.scene import guards, lifecycle, mpy  # noqa: E402
 from yadefrag.scene.engines import engines, inCurveOrder, installColliders
 from yadefrag.scene.lifecycle import runSteps  # noqa: E402
+from yadefrag.support import about  # noqa: E402
 from yadefrag.studies import EnsembleTable, TradeoffTable, ensemble, tradeoff  # noqa: E402
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 MOST_PANELS = 12  # in one picture
 # Twelve for curves in one picture. Any two differ by at least 0.25 in red, green and blue together.
-DISTINCT = ('#1f77b4', '#d62728', '#2ca02c', '#ff7f0e', '#9467bd', '#17becf', '#8c564b', '#e377c2',
+DISTINCT: tuple[str, ...] = ('#1f77b4', '#d62728', '#2ca02c', '#ff7f0e', '#9467bd', '#17becf', '#8c564b', '#e377c2',
             '#000000', '#bcbd22', '#7f7f7f', '#005a1e')
 
 _MOST_PARTS = 100  # of a side

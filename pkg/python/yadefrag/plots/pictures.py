@@ -127,7 +127,7 @@ class _Picture:
         values: Any
         perNode: bool | None
         with betweenSteps(fe):
-            self.isOfFragments = isinstance(field, str) and field == 'fragment'
+            self.isOfFragments: bool = isinstance(field, str) and field == 'fragment'
             if self.isOfFragments:
                 self.colours = fragmentColours(fe, former)
                 values, perNode = self.colours % 20, False

@@ -248,6 +248,7 @@ def guardSolver() -> None:
         return critical(self)
 
     guardedFragments.__qualname__ = 'FESolver.fragments'
-    for method in (removeBody, guardedFragments, deepestOverlap, criticalTimeStep):
+    methods: tuple[Any, ...] = removeBody, guardedFragments, deepestOverlap, criticalTimeStep
+    for method in methods:
         setattr(solver, method.__name__, inWords(method))
     solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)
