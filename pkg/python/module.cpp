@@ -156,7 +156,6 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("instructionSet", &yadefrag::instructionSet);
   yadefrag::defineBodyParts();
   yadefrag::defineMeshes();
-  yadefrag::defineOutlines();
   py::def("isInStep", &yadefrag::isInStep);
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");

@@ -46,7 +46,8 @@ def addSnapped(fe: FESolver, outline: Outline, snap: float | None, size: float, 
     bodies beside it as `snap` permits. `size` (m) is the length of the triangles' edges."""
     count = None
     if snap:
-        outline, *count = outline.snapped(fe, snap, size, matches=True)
+        outline, done = outline.snapped(fe, snap, size, matches=True)
+        count = done.moved, done.inserted, done.farthest
     try:
         body = add(outline)
     except Overlap as overlap:
@@ -59,14 +60,14 @@ def addSnapped(fe: FESolver, outline: Outline, snap: float | None, size: float, 
 
 
 def _withoutOverlap(fe, outline, size, overlap, add):
-    """(body, [moved, inserted, farthest]) of the outline moved off the bodies; where several of these
+    """(body, (moved, inserted, farthest)) of the outline moved off the bodies; where several of these
     meet with gaps, what is left of the overlap needs further moves."""
-    first, total, depth = overlap, [0, 0, 0.], overlap.depth
+    first, moved, inserted, farthest, depth = overlap, 0, 0, 0., overlap.depth
     for _ in range(_MOVES):
         try:
-            outline, *count = outline.snapped(fe, _REACH * depth, size, matches=False)
-            total = [max(total[0], count[0]), total[1] + count[1], total[2] + count[2]]
-            return add(outline), total
+            outline, done = outline.snapped(fe, _REACH * depth, size, matches=False)
+            moved, inserted, farthest = max(moved, done.moved), inserted + done.inserted, farthest + done.farthest
+            return add(outline), (moved, inserted, farthest)
         except Overlap as left:
             overlap, depth = left, left.depth
             if depth > OVERLAP * size:
@@ -76,7 +77,7 @@ def _withoutOverlap(fe, outline, size, overlap, add):
             break
     raise ValueError('%s Its vertices were moved by up to %.3g m, which does not suffice: %s '
                      'snapOutlines, for all outlines before they are added, moves both sides.' %
-                     (first, total[2], overlap)) from None
+                     (first, farthest, overlap)) from None
 
 
 def _advised(fe, outline, overlap, snap, size, displacement):
@@ -91,10 +92,10 @@ def _advised(fe, outline, overlap, snap, size, displacement):
 
 def _changes(fe, outline, tolerance, size):
     try:
-        _, moved, inserted, _ = outline.snapped(fe, tolerance, size, matches=False)
+        _, done = outline.snapped(fe, tolerance, size, matches=False)
     except ValueError:  # it would collapse
         return False
-    return moved + inserted > 0
+    return done.moved + done.inserted > 0
 
 
 def _tell(body, size, moved, inserted, farthest):
@@ -172,11 +173,11 @@ def snapOutlines(shapes: Iterable, tolerance: float) -> tuple[list, dict[str, An
     shapes = listOf('shapes', shapes, 'a list of outlines, or of pairs (outline, holes)')
     given = [_loopsOf('shapes[%d]' % i, shape) for i, shape in enumerate(shapes)]
     made = _yadefrag.snapTogether([(loops[0], loops[1:]) for loops in given], tolerance)
-    report = dict(moved=sum(one[1] for one in made), inserted=sum(one[2] for one in made),
-                  farthest=max((one[3] for one in made), default=0.))
+    report = dict(moved=sum(one.moved for one in made), inserted=sum(one.inserted for one in made),
+                  farthest=max((one.farthest for one in made), default=0.))
     found = []
-    for shape, before, (after, *_) in zip(shapes, given, made):
-        loops = [_turned(loop, was) for (loop, *_), was in zip(after, before)]
+    for shape, before, after in zip(shapes, given, made):
+        loops = [_turned(loop.points, was) for loop, was in zip(after.loops, before)]
         found.append((loops[0], loops[1:]) if _hasHoles(shape) else loops[0])
     return found, report
 
@@ -205,13 +206,14 @@ def _turned(loop, was):
 
 # --- bonds
 
-def _ofCorners(corners, farthest):
-    """The sentence about corners of outlines that a bond has moved."""
-    if not corners:
-        return ''
-    return ('%s moved by up to %.3g m onto a corner of the other body, since a side between them would have been '
-            'less than 0.2 of an element.' % (
-                'a corner of an outline was' if corners == 1 else '%d corners of outlines were' % corners, farthest))
+def _tellings(done):
+    """Sentences about corners of outlines that a bond has moved, and about its mesh."""
+    if done.corners:
+        yield ('%s moved by up to %.3g m onto a corner of the other body, since a side between them would have been '
+               'less than 0.2 of an element.' % ('a corner of an outline was' if done.corners == 1 else
+                                                 '%d corners of outlines were' % done.corners, done.farthest))
+    if done.problem:
+        yield done.problem
 
 
 def _requireNear(self, tolerance):
@@ -247,11 +249,10 @@ def bond(self: FESolver, a: int | str, b: int | str, strength: float, energy: fl
     """
     requireBetweenSteps()
     first, second = (bodyNumber(self, one, name, least=0) for name, one in (('a', a), ('b', b)))
-    sides, corners, farthest, problem = self._bond(first, second, positive('strength', strength, 'Pa'),
-                                                   positive('energy', energy, 'J/m²'))
-    for sentence in filter(None, [_ofCorners(corners, farthest), problem]):
+    done = self._bond(first, second, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    for sentence in _tellings(done):
         warnOfOne('bond: ' + sentence, 'bonds', '%d-%d' % (first, second))
-    return sides
+    return done.sides
 
 
 def bondAll(self: FESolver, tolerance: float, strength: float, energy: float) -> int:
@@ -268,21 +269,19 @@ def bondAll(self: FESolver, tolerance: float, strength: float, energy: float) ->
     requireBetweenSteps()
     tolerance = positive('tolerance', tolerance, 'm')
     _requireNear(self, tolerance)
-    (sides, corners, farthest, problem), unmatched, bodies, place = self._bondAll(
-        tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
-    if not sides and not unmatched:
+    done = self._bondAll(tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    if not done.sides and not done.unmatched:
         raise ValueError('bondAll: no sides that are not bonded yet are within %g m of another body; '
                          'bodies to be bonded must touch.' % tolerance)
-    sentences = [_ofCorners(corners, farthest), problem]
-    if unmatched:
+    sentences = list(_tellings(done))
+    if done.unmatched:
         sentences.insert(0, (
             '%d sides within %g m of another body are not bonded, since its sides there have other ends, as '
             'between the bodies %d and %d at (%g, %g) m, which cannot be moved onto each other: they are too '
             'near each other, or nodes of other bonds. A larger tolerance, or snapOutlines before the bodies '
-            'are added, may help.' % (unmatched, tolerance, *bodies, *place)))
-    problem = ' '.join(filter(None, sentences))
-    if not sides:
-        raise ValueError('bondAll: ' + problem)
-    if problem:
-        warn('bondAll: ' + problem)
-    return sides
+            'are added, may help.' % (done.unmatched, tolerance, *done.bodies, *done.place)))
+    if not done.sides:
+        raise ValueError('bondAll: ' + ' '.join(sentences))
+    if sentences:
+        warn('bondAll: ' + ' '.join(sentences))
+    return done.sides

@@ -128,18 +128,19 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     held = heldNodes(fixed, nodes)
     if not len(fe.masses):
         forget()  # messages of another solver
-    component, message, depth = fe._addMesh(
+    added = fe._addMesh(
         mesh=mesh, materials=materials.of, materialOf=materials.numbers, places=places, velocity=speed,
         displacement=moved, stress=stressed, stressAcross=across, held=held, smooth=smooth,
         thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed', name=name)
+    component = added.component
     if component < 0:
-        raise Overlap(message, depth)
+        raise Overlap(added.message, added.depth)
     addSolver(fe)
     if fixed is not None:
         noteFixed(fixed, component, bool(held.any()))
     keepTurning(fe, component, held, given, spin, present, centroid)
-    if message:
-        warnOfOne(message, 'bodies', component)
+    if added.message:
+        warnOfOne(added.message, 'bodies', component)
     return component
 
 

@@ -120,26 +120,20 @@ def _sortedEnds(ids, ends, span):
     return list(zip(*columns))
 
 
-def _findingOurs(typedEngine, names):
-    """utils.typedEngine of YADE's class in a scene with a class of `names` (of YADE's: ours) instead."""
-    @functools.wraps(typedEngine)
+def installColliders(colliders: Collection[str]) -> None:
+    """dumpBounds of our colliders; utils.typedEngine of YADE's class finds ours in a scene that has none of YADE's."""
+    for name in colliders:
+        getattr(wrapper, name).dumpBounds = dumpBounds
+    ours = {'InsertionSortCollider': colliders, 'InteractionLoop': ['CurveLoop'], 'NewtonIntegrator': ['CurveIntegrator']}
+    former = utils.typedEngine
+
+    @functools.wraps(former)
     def found(name):
         engines = wrapper.Omega().engines
-        if all(type(one).__name__ != name for one in engines):
-            for one in engines:
-                if type(one).__name__ in names.get(name, ()):
-                    return one
-        return typedEngine(name)
-    return found
+        classes = [type(one).__name__ for one in engines]
+        instead = () if name in classes else ours.get(name, ())
+        return next((one for one, its in zip(engines, classes) if its in instead), None) or former(name)
 
-
-def installColliders(names: Collection[str]) -> None:
-    """`names`: those of the colliders."""
-    for name in names:
-        getattr(wrapper, name).dumpBounds = dumpBounds
-    former = utils.typedEngine
-    found = _findingOurs(former, {'InsertionSortCollider': names, 'InteractionLoop': ['CurveLoop'],
-                                'NewtonIntegrator': ['CurveIntegrator']})
     # YADE has copied its functions to the names of scripts, and to yade.mpy, which finds its collider by it.
     for holder in utils, builtins, sys.modules['__main__'], sys.modules.get('yade.mpy'):
         if getattr(holder, 'typedEngine', None) is former:

@@ -13,7 +13,7 @@ import numpy
 from yadefrag.arguments import ArrayLike, File, array, number, path, refuse, text
 from yadefrag.files import savePicture
 from yadefrag.messages import needed
-from yadefrag.plots.axes import DISTINCT
+from yadefrag.plots.axes import DISTINCT, axesOf
 from yadefrag.studies.tradeoff_table import describe, grouped, samples, varying, writeRows
 
 if TYPE_CHECKING:
@@ -183,15 +183,12 @@ class EnsembleTable:
                with its band
         label  of the axis of the measured value
         """
-        from yadefrag.plots.axes import newAxes, requireAxes
-        label = text('label', label)
-        ax = newAxes() if ax is None else requireAxes(ax)
+        label, ax = text('label', label), axesOf(ax)
         (self._plotShares if by is None else self._plotBy)(ax, by, confidence, label)
         ax.set_title(self.title)
         ax.grid(True, linewidth=.3)
         ax.legend()
-        if file is not None:
-            savePicture(ax.figure, file, dpi=150)
+        savePicture(ax.figure, file, dpi=150)
         return ax
 
     def _plotShares(self, ax, _, confidence, label):
