@@ -182,7 +182,8 @@ def picture(blocks, file):
 def parse():
     parser = common.Options(__doc__, 60000)
     parser.add_argument('--size', default=8e-4, type=common.number(
-        lambda value: 2e-4 <= value <= 5e-3, 'from 0.0002 to 0.005 m'), help='m, of the triangles; default: %(default)s')
+        lambda value: 2e-4 <= value <= 5e-3, 'from 0.0002 to 0.005 m'),
+        help='m, of the triangles; default: %(default)s')
     parser.add_argument('--pressures', type=common.notNegative, nargs='+', default=[0, 2.5, 5],
                         metavar='MPA', help='lateral; default: 0 2.5 5')
     parser.add_argument('--held', action='store_true', help='the platens hold the ends sideways')

@@ -8,7 +8,7 @@ COLOURS = ('#8ecae6', '#ffb703', '#90be6d', '#f28482', '#b8a1d9', '#e9c46a', '#5
 
 
 def draw(film, stress, fragments, title, window, top):
-    """Writes the stress at the last moments of a film, in colours from 0 to `top`, MPa, and the fragments at the end."""
+    """Writes the stress at the last moments of a film, colours from 0 to `top`, MPa, and the fragments at the end."""
     pictures.frames(film, stress, title, columns=3, top=top, window=window, shots=film.shots[-6:],
                     cmap='afmhot_r', outline=.35, width=15)
     drawFragments(film.fe, film.shots[-1], fragments, title, window)

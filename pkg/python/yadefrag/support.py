@@ -139,15 +139,11 @@ def _rows():
     problem = describeSurroundings()
     yield 'interface', problem or "YADE's classes have the expected layout", not problem
     yield 'instructions', _yadefrag.instructionSet(), True
-    yield 'threads', _threads(), True
+    threads = os.environ.get('OMP_NUM_THREADS') or 1
+    yield 'threads', '%s of %d (yade -j N)' % (threads, len(os.sched_getaffinity(0))), True
     examples, manual = _place('examples'), _place('docs') or _place('README.md')
     yield 'examples', str(examples or 'not found'), examples is not None
     yield 'manual', str(manual or 'not found'), manual is not None
-
-
-def _threads():
-    limit = os.environ.get('OMP_NUM_THREADS')
-    return '%s of %d (yade -j N)' % (limit or 1, len(os.sched_getaffinity(0)))
 
 
 def _place(name):

@@ -1,5 +1,5 @@
-"""Results of FESolver's bodies. Fields by name: one table for pictures, ParaView and records. Reactions, contact forces,
-principal stresses, cracks, energies; quality of meshes."""
+"""Results of FESolver's bodies. Fields by name: one table for pictures, ParaView and records. Reactions, contact
+forces, principal stresses, cracks, energies; quality of meshes."""
 
 from __future__ import annotations
 
@@ -75,15 +75,6 @@ def nameOf(field: Any) -> Any:
     return _NAMES.get(field, field) if isinstance(field, str) else field
 
 
-def drawnValues(fe: FESolver, name: str) -> numpy.ndarray:
-    """One number for each node or triangle, of a field of FIELDS."""
-    field = FIELDS['mises' if name == 'stress' else name]
-    values = numpy.asarray(field.values(fe), dtype=float)
-    if field.drawn:
-        return field.drawn(values)
-    return numpy.linalg.norm(values, axis=1) if values.ndim == 2 else values
-
-
 def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[None, None]:
     """(values, True for one per node) of a field by its name in FIELDS, or of an array; both None for no field."""
     if field is None:
@@ -91,7 +82,11 @@ def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[
     if isinstance(field, str):
         if field not in FIELDS:
             refuse('field', field, 'one of %s, an array or None' % ', '.join(map(repr, FIELDS)))
-        return drawnValues(fe, field), FIELDS[field].ofNodes
+        own = FIELDS['mises' if field == 'stress' else field]
+        values = numpy.asarray(own.values(fe), dtype=float)
+        if own.drawn:
+            return own.drawn(values), own.ofNodes
+        return numpy.linalg.norm(values, axis=1) if values.ndim == 2 else values, own.ofNodes
     try:
         values = numpy.asarray(field, dtype=float)
     except (TypeError, ValueError, OverflowError):

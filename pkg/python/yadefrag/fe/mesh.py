@@ -113,8 +113,8 @@ def _restored(*parts):
 
 
 def _reduce(self):
-    return _restored, (self.nodes, self.triangles, self.loops, self._loopVertices, self.joints, self.joined, self._numJoints,
-                       self.smooth), self.__dict__
+    return _restored, (self.nodes, self.triangles, self.loops, self._loopVertices, self.joints, self.joined,
+                       self._numJoints, self.smooth), self.__dict__
 
 
 _init.__name__ = 'Mesh'
@@ -161,16 +161,6 @@ def withArguments(text: str | None) -> str:
     """A docstring with ARGUMENTS for its {arguments}. Both without indentation: Python removes that of docstrings
     since 3.13."""
     return inspect.cleandoc(text or '').replace('{arguments}', ARGUMENTS)
-
-
-def _isIrregular(mesh, material):
-    """By the argument `mesh`; None: irregular for a body that can crack, or whose materials are known only after
-    meshing."""
-    if mesh is None:
-        return isField(material) or mayCrack(material)
-    if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
-        refuse('mesh', mesh, "'regular', 'irregular' or None")
-    return mesh == 'irregular'
 
 
 def _jointLines(joints):
@@ -247,7 +237,10 @@ class Meshing:
         if simplify is not None:
             self.outline = self.outline.simplified(simplify)
         self.lines = _jointLines(joints)
-        self._irregular = _isIrregular(mesh, material)
+        if mesh is not None and (not isinstance(mesh, str) or mesh not in ('regular', 'irregular')):
+            refuse('mesh', mesh, "'regular', 'irregular' or None")
+        # None: irregular for a body that can crack, or whose materials are known only after meshing.
+        self._irregular = mesh == 'irregular' if mesh else isField(material) or mayCrack(material)
         self._sizes = _sizeOf(size, self.outline.points)
         self.size = float(numpy.min(self._sizes[-1]))
         self.jointTolerance = _JOINTS * self.size if jointTolerance is None else jointTolerance

@@ -139,8 +139,8 @@ def _nodeSets(elements):
 
 
 def _usedPoints(elements, name):
-    """Numbers of the points of triangles and quads, also those between corners. ValueError for solids and for kinds that
-    are not known."""
+    """Numbers of the points of triangles and quads, also those between corners. ValueError for solids and for kinds
+    that are not known."""
     for kind, _, numbers in elements.blocks:
         if len(numbers) and not cornersOf(kind):
             shown = kind.rstrip('0123456789') if kind[0].islower() else kind

@@ -51,7 +51,9 @@ def engines(fe: FESolver, gravity: ArrayLike | None = None, spheres: bool = Fals
     if not isinstance(loop, wrapper.InteractionLoop):
         loop = _classOf('loop', loop, wrapper.CurveLoop, wrapper.InteractionLoop)
     damping = number('damping', damping, lambda v: math.isfinite(v) and v >= 0, '0 or positive')
-    pull = tuple(fe.gravity) if gravity is None else _inPlane(gravity)
+    pull = tuple(fe.gravity) if gravity is None else numbersOf(gravity, 2) or numbersOf(gravity, 3)
+    if pull is None:
+        refuse('gravity', gravity, 'a pair of numbers (m/s²), or None')
     if not (spheres or moving):
         if any(pull) or gravity is not None:
             fe.gravity = pull
@@ -76,13 +78,6 @@ def _classOf(name, given, usual, base):
     if not isinstance(given, type) or not issubclass(given, base):
         refuse(name, given, 'None, or a class derived from %s' % base.__name__)
     return given
-
-
-def _inPlane(gravity):
-    found = numbersOf(gravity, 2) or numbersOf(gravity, 3)
-    if found is None:
-        refuse('gravity', gravity, 'a pair of numbers (m/s²), or None')
-    return found
 
 
 def dumpBounds(self: wrapper.Collider) -> tuple[list[tuple], ...]:
@@ -124,7 +119,8 @@ def installColliders(colliders: Collection[str]) -> None:
     """dumpBounds of our colliders; utils.typedEngine of YADE's class finds ours in a scene that has none of YADE's."""
     for name in colliders:
         getattr(wrapper, name).dumpBounds = dumpBounds
-    ours = {'InsertionSortCollider': colliders, 'InteractionLoop': ['CurveLoop'], 'NewtonIntegrator': ['CurveIntegrator']}
+    ours = {'InsertionSortCollider': colliders, 'InteractionLoop': ['CurveLoop'],
+            'NewtonIntegrator': ['CurveIntegrator']}
     former = utils.typedEngine
 
     @functools.wraps(former)

@@ -75,7 +75,10 @@ def _guardConstructor(make):
     @functools.wraps(make)
     def __init__(self, *args, **settings):
         if args and isinstance(self, wrapper.Collider):
-            _requireFunctors(args[0])
+            # YADE would end the process for a functor that is None.
+            if not isinstance(args[0], (list, tuple)) \
+                    or not all(isinstance(one, wrapper.BoundFunctor) for one in args[0]):
+                refuse('the first argument', args[0], 'a list of bound functors')
         elif args and isinstance(self, (wrapper.Material, wrapper.FESolver)):
             kind = type(self).__name__
             raise TypeError('%s takes no arguments by position: write the names of its attributes, as %s(%s=...).' %
@@ -101,8 +104,11 @@ def updateAttrs(self: Any, attributes: dict[str, Any]) -> None:
         change(self, {name: _fitting(known.get(name), value) for name, value in attributes.items()})
     except Exception as error:
         change(self, before)
-        if isinstance(error, _WRONG_KIND):
-            _findWrong(type(self)(), attributes)
+        if isinstance(error, _WRONG_KIND):  # TypeError for the first that is invalid for an object of this class
+            scratch = type(self)()
+            for name in attributes:
+                if name in known:
+                    setattr(scratch, name, attributes[name])
         raise
 
 
@@ -112,21 +118,6 @@ def _findMisspelt(self, known, attributes):
         near = difflib.get_close_matches(str(name), known, 1)
         if near and not hasattr(self, str(name)):
             raise AttributeError('%s has no attribute %s, but %s.' % (type(self).__name__, shown(name), near[0]))
-
-
-def _findWrong(scratch, settings):
-    """Raises TypeError for the first of the settings that is invalid for an object of this class."""
-    known = scratch.dict()
-    for name, value in settings.items():
-        if name in known:
-            setattr(scratch, name, value)
-
-
-def _requireFunctors(functors):
-    """YADE would end the process for a functor that is None."""
-    if not isinstance(functors, (list, tuple)) \
-            or not all(isinstance(one, wrapper.BoundFunctor) for one in functors):
-        refuse('the first argument', functors, 'a list of bound functors')
 
 
 def _fitting(present, value):

@@ -1,5 +1,5 @@
-"""YADE's MPI engine, yade.mpy: finds our colliders, refuses scenes that it cannot split, and completes what it lacks for
-those that it splits: clumps, bodies that scripts insert or erase while it runs, periodic cells.
+"""YADE's MPI engine, yade.mpy: finds our colliders, refuses scenes that it cannot split, and completes what it lacks
+for those that it splits: clumps, bodies that scripts insert or erase while it runs, periodic cells.
 
 Functions with an @instead take the place of YADE's, and get YADE's module and function first.
 
@@ -47,16 +47,6 @@ def _omega() -> Any:
 def _exists(id):
     bodies = wrapper.Omega().bodies
     return 0 <= id < len(bodies) and bodies[id] is not None
-
-
-def dividedClump() -> int | None:
-    """Id of a clump that is not in the same process as its members."""
-    bodies = wrapper.Omega().bodies
-    for body in bodies:
-        if body.isClumpMember and (not _exists(body.clumpId)
-                                   or bodies[body.clumpId].subdomain != body.subdomain):
-            return body.clumpId
-    return None
 
 
 def keepClumpsWhole() -> None:
@@ -315,11 +305,15 @@ def _reasonOf(collider, omega):
 
 def _reasonOfClumps(mpy):
     """The master's decomposition makes clumps whole."""
-    divided = None if mpy.DOMAIN_DECOMPOSITION or ourCollider() is None else dividedClump()
-    if divided is None:
+    if mpy.DOMAIN_DECOMPOSITION or ourCollider() is None:
         return None
-    return ('Clump #%d and its members belong to different processes of yade.mpy: give them the same '
-            'body.subdomain.' % divided)
+    bodies = wrapper.Omega().bodies
+    for body in bodies:
+        if body.isClumpMember and (not _exists(body.clumpId)
+                                   or bodies[body.clumpId].subdomain != body.subdomain):
+            return ('Clump #%d and its members belong to different processes of yade.mpy: give them the same '
+                    'body.subdomain.' % body.clumpId)
+    return None
 
 
 def _shareVerletDist(reports):

@@ -291,13 +291,9 @@ def _meanOf(table, confidence):
     if count == 1:
         return mean, numpy.full_like(mean, numpy.nan), numpy.full_like(mean, numpy.nan)
     deviation = table.std(axis=0, ddof=1)
-    return mean, deviation, _student(confidence, count - 1) * deviation / math.sqrt(count)
-
-
-def _student(confidence, freedom):
-    """The t for which a value of Student's distribution is from -t to t with that probability."""
     statistics = needed('scipy.stats', 'python3-scipy', 'confidence bands work')
-    return statistics.t.ppf((1 + confidence) / 2, freedom)
+    most = statistics.t.ppf((1 + confidence) / 2, count - 1)  # values are from -most to most with that probability
+    return mean, deviation, most * deviation / math.sqrt(count)
 
 
 def _places(runs):
