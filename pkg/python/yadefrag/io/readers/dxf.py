@@ -6,7 +6,7 @@ Those of the model space that are shown, also from blocks, seen from above: z is
 import collections
 import importlib
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 import numpy
 
@@ -214,6 +214,6 @@ def _polyline(entity, tolerance, name):
     return [list(entity.ocs().points_to_wcs([(x, y, height) for x, y in points.tolist()]))]
 
 
-_READERS = dict(LINE=lambda entity, *_: [[entity.dxf.start, entity.dxf.end]],
-                ARC=_arc, CIRCLE=_arc, ELLIPSE=_ellipse, SPLINE=_spline,
-                LWPOLYLINE=_polyline, POLYLINE=_polyline)
+_READERS: dict[str, Callable] = dict(
+    LINE=lambda entity, *_: [[entity.dxf.start, entity.dxf.end]], ARC=_arc, CIRCLE=_arc, ELLIPSE=_ellipse,
+    SPLINE=_spline, LWPOLYLINE=_polyline, POLYLINE=_polyline)
