@@ -17,10 +17,20 @@ _CHUNK = 2 * 10**6  # pairs of an edge and a place per block
 def withoutCopies(shapes: Sequence[list[numpy.ndarray]], gap: float) -> tuple[list[list[numpy.ndarray]], int]:
     """(shapes, number of omitted ones): without those that repeat another one's lines, in any
     direction. A shape is a list of lines (n, 2)."""
-    found: dict = {}
-    for shape in shapes:
-        found.setdefault(tuple(sorted(_segments(line, gap) for line in shape)), shape)
-    return list(found.values()), len(shapes) - len(found)
+    lines = [line for shape in shapes for line in shape]
+    if not lines:
+        return [], 0
+    boxes = iter(map(tuple, numpy.round(numpy.hstack(_boxes(lines)) / gap).tolist()))
+    candidates = {}
+    for i, shape in enumerate(shapes):
+        candidates.setdefault(tuple(sorted(next(boxes) for _ in shape)), []).append(i)
+    kept = []
+    for those in candidates.values():
+        found: dict = {} if len(those) > 1 else {None: those[0]}
+        for i in those if not found else ():
+            found.setdefault(tuple(sorted(_segments(line, gap) for line in shapes[i])), i)
+        kept += found.values()
+    return [shapes[i] for i in sorted(kept)], len(shapes) - len(kept)
 
 
 def _starts(lines):
@@ -133,8 +143,13 @@ def extents(loops: Sequence[numpy.ndarray]) -> numpy.ndarray:
     """The longer side of the box around each of a list of loops."""
     if not loops:
         return numpy.zeros(0)
-    points, starts = numpy.concatenate(loops), _starts(loops)
-    return (numpy.maximum.reduceat(points, starts) - numpy.minimum.reduceat(points, starts)).max(axis=1)
+    low, high = _boxes(loops)
+    return (high - low).max(axis=1)
+
+
+def _boxes(lines):
+    points, starts = numpy.concatenate(lines), _starts(lines)
+    return numpy.minimum.reduceat(points, starts), numpy.maximum.reduceat(points, starts)
 
 
 def closed(loop: numpy.ndarray) -> numpy.ndarray:
