@@ -7,10 +7,34 @@ import sys
 
 import numpy as np
 import yadefrag
+from tqdm import tqdm
 from yade import O, wrapper as w
 
 COLLIDERS = dict(Lebesgue='LebesgueCollider', LinearCode='LinearCodeCollider',
                  Hierarchy='HierarchyCollider', InsertionSort='InsertionSortCollider')
+
+
+def number(isRight, wanted, kind=float):
+    """For add_argument(type=...): an option's value as a finite number of the kind for which isRight(value) is true;
+    `wanted` describes valid values. argparse reports errors."""
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = math.nan
+        if not (abs(value) < math.inf and isRight(value)):
+            raise argparse.ArgumentTypeError(f'it is {text!r}, it must be {wanted}')
+        return value
+    return read
+
+
+def atLeast(least):
+    return number(lambda value: value >= least, f'a whole number of at least {least}', int)
+
+
+wholeNumber = atLeast(1)
+positive = number(lambda value: value > 0, 'a positive number')
+notNegative = number(lambda value: value >= 0, 'a number of at least 0')
 
 
 class Options(argparse.ArgumentParser):
@@ -42,45 +66,6 @@ def makeFolder(parser, folder):
     except OSError as error:
         parser.error(f'--out is {folder!r}, which is no folder that can be written to '
                      f'({error.strerror})')
-
-
-def wholeNumber(text, least=1):
-    """An option's value as an int of at least `least`; argparse reports errors."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = least - 1
-    if value < least:
-        raise argparse.ArgumentTypeError(
-            f'it is {text!r}, it must be a whole number of at least {least}')
-    return value
-
-
-def atLeast(least):
-    """`wholeNumber` with another minimum, for add_argument(type=...)."""
-    return lambda text: wholeNumber(text, least)
-
-
-def number(text, isRight, wanted):
-    """An option's value as a float for which isRight(value) is true; `wanted` describes valid
-    values."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not (math.isfinite(value) and isRight(value)):
-        raise argparse.ArgumentTypeError(f'it is {text!r}, it must be {wanted}')
-    return value
-
-
-def positive(text):
-    """An option's value as a positive float."""
-    return number(text, lambda value: value > 0, 'a positive number')
-
-
-def notNegative(text):
-    """An option's value as a float of at least 0."""
-    return number(text, lambda value: value >= 0, 'a number of at least 0')
 
 
 def setEngines(fe, collider):
@@ -116,7 +101,8 @@ class Run:
         if show:
             show()
         try:
-            for step in progress(steps):
+            # A bar if standard error is a terminal.
+            for step in tqdm(range(1, steps + 1), unit='step', disable=None, mininterval=.3):
                 O.step()
                 self.deepest = max(self.deepest, fe.maxPenetration)
                 self.mostActives = max(self.mostActives, fe.numActives)
@@ -176,19 +162,17 @@ def timeSplit():
                      for name, value in seconds.items())
 
 
-def progress(steps):
-    """1 … steps; with a bar of steps and remaining time if standard error is a terminal."""
-    counted = range(1, steps + 1)
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        return counted
-    return tqdm(counted, unit='step', disable=None, mininterval=.3)
-
-
-def moments(steps, count):
-    """`count` steps from the first to the last, evenly spaced (without the start)."""
-    return [round(steps * (k + 1) / count) for k in range(count)]
+def filmed(fe, options, field, moments, **settings):
+    """(Run, Film or None): a run of options.steps steps with the usual engines, and its pictures at the start and at
+    steps in a list, or at a number of evenly spaced ones up to the last. The other settings are those of Run.go."""
+    setEngines(fe, options.collider)
+    film = None
+    if not options.no_pictures:
+        import pictures
+        film = pictures.Film(fe, field)
+    if isinstance(moments, int):
+        moments = [round(options.steps * (k + 1) / moments) for k in range(moments)]
+    return Run(fe).go(options.steps, moments, film and film.take, **settings), film
 
 
 def tell(options, *names):

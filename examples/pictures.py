@@ -40,11 +40,15 @@ def values(fe, field, triangles):
     """
     if field == 'speed':
         return np.linalg.norm(fe.velocities[triangles].mean(axis=1), axis=1)
-    count = np.bincount(triangles.ravel(), minlength=len(fe.nodes))
-    at = [np.bincount(triangles.ravel(), np.repeat(part, 3), len(count)) / np.maximum(count, 1)
-          for part in 1e-6 * fe.stress.T]
-    xx, yy, xy = (part[triangles].mean(axis=1) for part in at)
+    xx, yy, xy = (averaged(triangles, part) for part in 1e-6 * fe.stress.T)
     return np.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2)
+
+
+def averaged(triangles, values):
+    """(m) Values of the triangles, averaged at the nodes and then at each triangle's corners."""
+    corners = triangles.ravel()
+    count = np.bincount(corners)
+    return (np.bincount(corners, np.repeat(values, 3)) / np.maximum(count, 1))[triangles].mean(axis=1)
 
 
 def draw(axis, shot, norm, cmap='viridis', outline=.6):
@@ -65,9 +69,9 @@ def limits(shots, margin=.03):
     return (low[0] - room, high[0] + room), (low[1] - room, high[1] + room)
 
 
-def frames(film, file, title, columns, top, unit='µs', window=None, width=13, **style):
-    """Shots side by side, with one colour bar from 0 to `top`; writes `file`."""
-    shots = film.shots
+def frames(film, file, title, columns, top, unit='µs', window=None, width=13, shots=None, **style):
+    """Shots (None: all) side by side, with one colour bar from 0 to `top`; writes `file`."""
+    shots = shots or film.shots
     x, y = window or limits(shots)
     rows = -(-len(shots) // columns)
     height = ((width - 1.9) / columns * (y[1] - y[0]) / (x[1] - x[0]) + .3) * rows + .8

@@ -122,10 +122,8 @@ class Block:
 
 def shot(fe):
     """(m, 3, 2) corners in mm, (m) axial pressure in MPa, averaged at the nodes."""
-    nodes, triangles = fe.nodes, fe.triangles
-    count = np.bincount(triangles.ravel(), minlength=len(nodes))
-    sums = np.bincount(triangles.ravel(), np.repeat(-1e-6 * fe.stress[:, 1], 3), len(nodes))
-    return 1e3 * nodes[triangles], (sums / np.maximum(count, 1))[triangles].mean(axis=1)
+    import pictures
+    return 1e3 * fe.nodes[fe.triangles], pictures.averaged(fe.triangles, -1e-6 * fe.stress[:, 1])
 
 
 def pieceColours(fe):
@@ -183,15 +181,14 @@ def picture(blocks, file):
 
 def parse():
     parser = common.Options(__doc__, 60000)
-    parser.add_argument('--size', type=lambda text: common.number(
-        text, lambda value: 2e-4 <= value <= 5e-3, 'from 0.0002 to 0.005 m'), default=8e-4,
+    parser.add_argument('--size', default=8e-4, type=common.number(
+        lambda value: 2e-4 <= value <= 5e-3, 'from 0.0002 to 0.005 m'),
         help='m, of the triangles; default: %(default)s')
     parser.add_argument('--pressures', type=common.notNegative, nargs='+', default=[0, 2.5, 5],
                         metavar='MPA', help='lateral; default: 0 2.5 5')
     parser.add_argument('--held', action='store_true', help='the platens hold the ends sideways')
-    parser.add_argument('--scatter', type=lambda text: common.number(
-        text, lambda value: 0 <= value < 1, 'at least 0 and below 1'), default=.1,
-        help='of the strengths, ±; default: %(default)s')
+    parser.add_argument('--scatter', default=.1, type=common.number(
+        lambda value: 0 <= value < 1, 'at least 0 and below 1'), help='of the strengths, ±; default: %(default)s')
     parser.add_argument('--fracture-energy', type=common.notNegative, default=10, metavar='J/M²',
                         help='default: %(default)s')
     parser.add_argument('--seed', type=common.wholeNumber, default=1,

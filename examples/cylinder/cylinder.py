@@ -101,15 +101,8 @@ def main():
     if options.vtk and not options.vtk.endswith('.vtu'):
         parser.error(f"--vtk is {options.vtk!r}, its name must end with '.vtu'")
     fe = build(options.size, options.passes)
-    common.setEngines(fe, options.collider)
     watch = Watch(fe)
-    show, film = None, None
-    if not options.no_pictures:
-        import pictures
-        film = pictures.Film(fe, 'mises')
-        show = film.take
-    run = common.Run(fe).go(options.steps, common.moments(options.steps, FRAMES), show, every=5,
-                            each=watch)
+    run, film = common.filmed(fe, options, 'mises', FRAMES, every=5, each=watch)
     print(f'Cylinder on block, size {options.size:g} m, {options.collider}, '
           f'passes={options.passes}')
     watch.report()
@@ -126,11 +119,9 @@ def draw(options, film, watch, run):
     """Writes the pictures."""
     import pictures
     title = f'Steel cylinder on a ceramic block, {SPEED:g} m/s'
-    chosen = pictures.Film(film.fe, film.field)
-    chosen.shots = [film.shots[round(k * (len(film.shots) - 1) / FRAMES)]
-                    for k in (4, 10, 16, 24, 32, 44)]
-    pictures.frames(chosen, os.path.join(options.out, 'cylinder.png'), title, columns=3, top=TOP,
-                    window=CROP, cmap='inferno', outline=.8)
+    shots = [film.shots[round(k * (len(film.shots) - 1) / FRAMES)] for k in (4, 10, 16, 24, 32, 44)]
+    pictures.frames(film, os.path.join(options.out, 'cylinder.png'), title, columns=3, top=TOP,
+                    window=CROP, shots=shots, cmap='inferno', outline=.8)
     curves(watch, run, os.path.join(options.out, 'cylinder_force.png'))
     if options.gif:
         pictures.animation(film, os.path.join(options.out, 'cylinder.gif'), TOP, window=CROP,

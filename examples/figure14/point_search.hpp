@@ -63,5 +63,7 @@ struct PointSearchPlan {
 
 std::unique_ptr<PointSearch> makePointSearch(SearchMethod method, PointSearchPlan plan,
                                              bool countComparisons = false);
+/// That of kHierarchy.
+std::unique_ptr<PointSearch> makePointHierarchy(PointSearchPlan plan, bool countComparisons);
 
 }  // namespace yadefrag

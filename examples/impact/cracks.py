@@ -7,22 +7,11 @@ INTACT = '#e4e1da'  # the largest fragment of a body
 COLOURS = ('#8ecae6', '#ffb703', '#90be6d', '#f28482', '#b8a1d9', '#e9c46a', '#5f9ea0', '#d4a373')
 
 
-class Films:
-    """The stress at the chosen moments, and the fragments at the last of them."""
-
-    def __init__(self, fe):
-        self.fe, self.film = fe, pictures.Film(fe, 'mises')
-
-    def take(self):
-        self.film.take()
-
-    def draw(self, stress, fragments, title, window, top):
-        """Writes both pictures; colours of the stress from 0 to `top`, MPa."""
-        chosen = pictures.Film(self.fe, 'mises')
-        chosen.shots = self.film.shots[-6:]
-        pictures.frames(chosen, stress, title, columns=3, top=top, window=window,
-                        cmap='afmhot_r', outline=.35, width=15)
-        drawFragments(self.fe, chosen.shots[-1], fragments, title, window)
+def draw(film, stress, fragments, title, window, top):
+    """Writes the stress at the last moments of a film, colours from 0 to `top`, MPa, and the fragments at the end."""
+    pictures.frames(film, stress, title, columns=3, top=top, window=window, shots=film.shots[-6:],
+                    cmap='afmhot_r', outline=.35, width=15)
+    drawFragments(film.fe, film.shots[-1], fragments, title, window)
 
 
 def drawFragments(fe, shot, file, title, window):

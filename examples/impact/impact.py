@@ -112,24 +112,19 @@ def arguments():
 def main():
     options = arguments()
     fe = build(options)
-    common.setEngines(fe, options.collider)
     path = lambda name: os.path.join(options.out, name)  # noqa: E731
     watch = Watch(fe, None if options.no_pictures else path('course.csv'))
-    film = show = None
-    if not options.no_pictures:
-        import cracks
-        film = cracks.Films(fe)
-        show = film.take
     shown = [round(share * options.steps) for share in SHARES]
-    run = common.Run(fe).go(options.steps, shown, show, every=EVERY, each=watch)
+    run, film = common.filmed(fe, options, 'mises', shown, every=EVERY, each=watch)
     print(f'Cylinder on a brittle block, {options.speed:g} m/s, size {options.size:g} m, '
           f'{options.fracture_energy:g} J/m², {options.collider}, passes={options.passes}')
     watch.report()
     run.report()
     if film:
+        import cracks
         title = f'Steel cylinder on a brittle block, {options.speed:g} m/s'
         fragmentTable(fe, path('fragments.csv'))
-        film.draw(path('impact.png'), path('impact_fragments.png'), title, CROP, TOP)
+        cracks.draw(film, path('impact.png'), path('impact_fragments.png'), title, CROP, TOP)
         cracks.course(path('course.csv'), path('impact_course.png'), title)
         if (np.bincount([f['component'] for f in fe.fragments()]) > 1).any():
             plotFragmentSizes(fe, path('impact_sizes.png'))

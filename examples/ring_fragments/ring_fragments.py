@@ -166,6 +166,8 @@ def arguments():
                                      description=__doc__.split('\n')[0])
     parser.add_argument('--seeds', type=common.wholeNumber, default=3,
                         help='rings of each kind; default: 3')
+    # At these rates the mesh is fine enough and the ring breaks.
+    rate = common.number(lambda value: 500 <= value <= 2e5, 'from 500 to 200,000 per second')
     parser.add_argument('--rates', type=rate, nargs='+', default=[1e3, 1e4, 1e5], metavar='1/S',
                         help='of strain; default: 1e3 1e4 1e5')
     parser.add_argument('--moduli', type=common.notNegative, nargs='+', default=[0, 50, 20],
@@ -177,11 +179,6 @@ def arguments():
     if not options.no_pictures:
         common.makeFolder(parser, options.out)
     return options
-
-
-def rate(text):
-    """An option's value as a rate at which the mesh is fine enough and the ring breaks."""
-    return common.number(text, lambda value: 500 <= value <= 2e5, 'from 500 to 200,000 per second')
 
 
 def main():

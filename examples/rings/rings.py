@@ -45,17 +45,12 @@ def main():
     parser.add_argument('--seed', type=common.atLeast(0), default=1, help='default: 1')
     options = parser.parse()
     fe = build(options.n, options.passes, not options.straight, options.seed)
-    common.setEngines(fe, options.collider)
-    show = None
-    if not options.no_pictures:
-        import pictures
-        film = pictures.Film(fe, 'mises')
-        show = film.take
-    run = common.Run(fe).go(options.steps, common.moments(options.steps, 5), show)
+    run, film = common.filmed(fe, options, 'mises', 5)
     print(f'{options.n} rings, {"straight" if options.straight else "smooth"}, '
           f'{options.collider}, passes={options.passes}')
     run.report()
-    if show:
+    if film:
+        import pictures
         top = np.percentile(np.concatenate([s.values for s in film.shots]), 99)
         pictures.frames(film, os.path.join(options.out, 'rings.png'),
                         f'{options.n} rubber rings that start in different directions at '

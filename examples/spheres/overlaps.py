@@ -1,5 +1,6 @@
-"""Overlapping spheres, found with NumPy and without a collider, and the comparison of two runs."""
+"""Overlapping spheres, found with SciPy's k-d tree and without a collider, and the comparison of two runs."""
 import numpy as np
+from scipy.spatial import cKDTree
 from yade import O
 from yade.wrapper import Sphere
 
@@ -28,26 +29,12 @@ def snapshot(before):
 def overlapping(x, radii):
     """Sorted pairs i * n + j, i < j, of spheres whose distance is below the sum of their radii.
 
-    Spheres of one size are sorted into a grid of cells, the few larger ones are compared with all.
+    Of spheres of one size the tree finds those that are near, the few larger ones are compared with all.
     """
     n, r = len(x), np.median(radii)
-    big = np.flatnonzero(radii > 1.001 * r)
-    small = np.flatnonzero(radii <= 1.001 * r)
-    found = [_touching(np.full(n, b), np.arange(n), x, radii) for b in big]
-    edge = 2.002 * r
-    cell = np.floor((x[small] - x[small].min(axis=0)) / edge).astype(int) + 1
-    size = cell.max(axis=0) + 2
-    key = (cell[:, 0] * size[1] + cell[:, 1]) * size[2] + cell[:, 2]
-    order = np.argsort(key, kind='stable')
-    small, key = small[order], key[order]
-    offsets = np.argwhere(np.ones((3, 3, 3), bool)) - 1
-    for shift in (offsets[:, 0] * size[1] + offsets[:, 1]) * size[2] + offsets[:, 2]:
-        low, high = np.searchsorted(key, key + shift), np.searchsorted(key, key + shift, 'right')
-        counts = high - low
-        i = np.repeat(np.arange(len(key)), counts)
-        j = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts) + low[i]
-        found.append(_touching(small[i], small[j], x, radii))
-    return np.unique(np.concatenate(found))
+    found = [_touching(np.full(n, b), np.arange(n), x, radii) for b in np.flatnonzero(radii > 1.001 * r)]
+    near = cKDTree(x).query_pairs(2.003 * r, output_type='ndarray')
+    return np.unique(np.concatenate([*found, _touching(*near.T, x, radii)]))
 
 
 def _touching(i, j, x, radii):

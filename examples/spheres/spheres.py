@@ -7,7 +7,7 @@ The same scene is run with each set of engines: collider, interaction loop and i
 out/spheres.png and out/spheres_times.png. Exit status 1 if a contact is missing anywhere.
 
 Expected agreement. In each run, at each check, the contacts must be exactly the pairs of spheres that
-overlap, which NumPy finds without any collider. The two runs have the same contacts as long as their
+overlap, which SciPy finds without any collider. The two runs have the same contacts as long as their
 trajectories agree. At first these agree to the last digit or nearly so: the engines visit the contacts in
 different orders, so that the forces on a sphere are summed in different orders, and the rounding
 differs by 1e-16. An impact is chaotic: such differences grow with each collision. A pair may then
@@ -21,6 +21,7 @@ import time
 
 import matplotlib
 import numpy as np
+from tqdm import tqdm
 
 matplotlib.use('Agg')
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
@@ -78,7 +79,7 @@ def bed(seed):
     return centres
 
 
-def run(name, seed, steps, checks, progress):
+def run(name, seed, checks):
     """Run the scene with these engines; returns a dict of times, counts and snapshots."""
     build(seed)
     collider, loop, integrator = ENGINES[name]
@@ -91,14 +92,15 @@ def run(name, seed, steps, checks, progress):
     ]
     O.timingEnabled = True
     result = dict(name=name, seconds=0., snapshots=[])
-    for stop in checks:
-        while O.iter < stop - 1:
-            result['seconds'] += _timed(min(25, stop - 1 - O.iter))
-            progress(name, O.iter)
-        before = overlaps.positions()  # the contacts of the next step belong to these positions
-        result['seconds'] += _timed(1)
-        result['snapshots'].append(overlaps.snapshot(before))
-    progress(name, steps)
+    with tqdm(total=checks[-1], desc=name, unit='step', disable=None) as bar:
+        for stop in checks:
+            while O.iter < stop - 1:
+                result['seconds'] += _timed(min(25, stop - 1 - O.iter))
+                bar.update(O.iter - bar.n)
+            before = overlaps.positions()  # the contacts of the next step belong to these positions
+            result['seconds'] += _timed(1)
+            result['snapshots'].append(overlaps.snapshot(before))
+            bar.update(O.iter - bar.n)
     result.update(collider=O.engines[1].execTime * 1e-9, loop=O.engines[2].execTime * 1e-9,
                   integrator=O.engines[3].execTime * 1e-9, activations=O.engines[1].execCount,
                   interactions=len(O.interactions), real=O.interactions.countReal())
@@ -130,23 +132,6 @@ def table(results):
     return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
 
 
-def progressBar(total):
-    """A function (name, step) that shows progress when standard error is a terminal."""
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        return lambda name, step: None
-    bars = {}
-
-    def show(name, step):
-        if name not in bars:
-            bars[name] = tqdm(total=total, desc=name, unit='step', disable=None)
-        bars[name].update(step - bars[name].n)
-        if step == total:
-            bars[name].close()
-    return show
-
-
 def main(arguments):
     """Run, compare, print, draw; returns the exit status."""
     parser = argparse.ArgumentParser(prog='spheres.py', description=__doc__.split('\n')[0])
@@ -162,8 +147,7 @@ def main(arguments):
     unknown = [name for name in options.engines if name not in ENGINES]
     if unknown:
         parser.error(f'no engines {unknown[0]!r}; there are {", ".join(ENGINES)}')
-    progress = progressBar(options.steps)
-    results = [run(name, options.seed, options.steps, checks, progress) for name in options.engines]
+    results = [run(name, options.seed, checks) for name in options.engines]
     print(f'\nProjectile into 20,000 spheres, {options.steps} steps of {O.dt:.2g} s\n')
     print(table(results), '\n')
     missing = overlaps.compare(results, checks)

@@ -50,16 +50,11 @@ def main():
     parser.add_argument('--seed', type=common.atLeast(0), default=1, help='default: 1')
     options = parser.parse()
     fe = build(options.n, options.passes, options.seed)
-    common.setEngines(fe, options.collider)
-    show = None
-    if not options.no_pictures:
-        import pictures
-        film = pictures.Film(fe, 'speed')
-        show = film.take
-    run = common.Run(fe).go(options.steps, common.moments(options.steps, 3), show)
+    run, film = common.filmed(fe, options, 'speed', 3)
     print(f'{options.n} × {options.n} squares, {options.collider}, passes={options.passes}')
     run.report()
-    if show:
+    if film:
+        import pictures
         pictures.frames(film, os.path.join(options.out, 'squares.png'),
                         f'{options.n} × {options.n} steel squares in a rigid frame, a quarter of '
                         f'them starts at {SPEED:g} m/s', columns=2, top=SPEED, cmap='YlOrRd',

@@ -1,6 +1,6 @@
 #pragma once
 // Arrays between C++ and Python: the one place where a column becomes a NumPy array, and the
-// reverse.
+// reverse. Several results are an object with an attribute for each.
 
 #include <array>
 #include <cstdint>
@@ -89,6 +89,22 @@ std::vector<std::vector<Element>> fromArrays(const yade::py::list& arrays) {
   for (yade::py::ssize_t i = 0; i < yade::py::len(arrays); ++i)
     columns.push_back(fromArray<Element>(arrays[i]));
   return columns;
+}
+
+inline void setAttributes(const yade::py::object& /*object*/) {}
+template <class Value, class... Rest>
+void setAttributes(yade::py::object& object, const char* name, const Value& value,
+                   const Rest&... rest) {
+  object.attr(name) = value;
+  setAttributes(object, rest...);
+}
+
+/// An object for Python with these attributes: `record("name", value, ...)`.
+template <class... Rest>
+yade::py::object record(const Rest&... namesAndValues) {
+  yade::py::object object = yade::py::import("types").attr("SimpleNamespace")();
+  setAttributes(object, namesAndValues...);
+  return object;
 }
 
 }  // namespace yadefrag

@@ -29,16 +29,16 @@ BrittlePlaces brittlePlacesOf(const py::object& strength, const py::object& frac
   return places;
 }
 
-/// `FESolver._addMesh` of yadefrag/fe/solver.py, which has checked all input: (component, message
-/// on a coarse mesh or '', 0), or, without any change, (-1, message, depth (m)) for a body that
+/// `FESolver._addMesh` of yadefrag/fe/solver.py, which has checked all input: component and message
+/// on a coarse mesh or ''; without any change component -1, message and depth (m) for a body that
 /// would overlap another one. Arrays are by node, `stress` and `materialOf` (index in `materials`)
 /// by triangle; empty: none.
-py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& materials,
-                  const py::object& materialOf, const BrittlePlaces& places,
-                  const py::object& velocity, const py::object& displacement,
-                  const py::object& stress, const py::object& stressAcross, const py::object& held,
-                  const py::object& smooth, double thickness, bool selfContact, bool smoothed,
-                  const std::string& name) {
+py::object addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& materials,
+                   const py::object& materialOf, const BrittlePlaces& places,
+                   const py::object& velocity, const py::object& displacement,
+                   const py::object& stress, const py::object& stressAcross, const py::object& held,
+                   const py::object& smooth, double thickness, bool selfContact, bool smoothed,
+                   const std::string& name) {
   BodySpec spec;
   spec.materials.ofTriangle = fromArray<std::uint32_t>(materialOf);
   spec.places = places;
@@ -58,9 +58,9 @@ py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& mate
   return change(solver, [&] {
     try {
       const AddedBody added = solver.addBody(mesh, std::move(spec), own);
-      return py::make_tuple(added.component, added.message, 0.);
+      return record("component", added.component, "message", added.message);
     } catch (const OverlapError& overlap) {
-      return py::make_tuple(-1, overlap.what(), overlap.depth);
+      return record("component", -1, "message", overlap.what(), "depth", overlap.depth);
     }
   });
 }
@@ -69,27 +69,26 @@ void takeBody(FESolver& solver, int component) {
   change(solver, [&] { solver.removeBody(component); });
 }
 
-py::tuple toTuple(const Snapped& snapped) {
+/// loops, moved, inserted, farthest (m); of a loop points (n, 2), vertex (n), isInserted (n).
+py::object recordOf(const Snapped& snapped) {
   py::list loops;
   for (const SnappedLoop& loop : snapped.loops)
-    loops.append(
-        py::make_tuple(toArray(loop.points), toArray(loop.vertex), toArray(loop.isInserted)));
+    loops.append(record("points", toArray(loop.points), "vertex", toArray(loop.vertex),
+                        "isInserted", toArray(loop.isInserted)));
   const SnapCount& count = snapped.count;
-  return py::make_tuple(loops, count.moved, count.inserted, count.farthest);
+  return record("loops", loops, "moved", count.moved, "inserted", count.inserted, "farthest",
+                count.farthest);
 }
 
-/// (loops, moved, inserted, farthest); `rule` is (tolerance, spacing, matchesNodes). A loop is
-/// (points (n, 2), vertex (n), isInserted (n)).
-py::tuple snapOf(const FESolver& solver, const py::object& outline, const py::list& holes,
-                 const py::tuple& rule) {
+py::object snapOf(const FESolver& solver, const py::object& outline, const py::list& holes,
+                  double tolerance, double spacing, bool matchesNodes) {
   return change(solver, [&] {
-    return toTuple(snapOnBodies(
-        solver.world(), polygonOf(outline, holes),
-        {py::extract<double>(rule[0]), py::extract<double>(rule[1]), py::extract<bool>(rule[2])}));
+    return recordOf(snapOnBodies(solver.world(), polygonOf(outline, holes),
+                                 {tolerance, spacing, matchesNodes}));
   });
 }
 
-/// The same for a list of (outline, holes): a list of such tuples.
+/// The same for a list of (outline, holes): a list of such objects.
 py::list snapTogetherOf(const py::list& polygons, double tolerance) {
   return asValueError([&] {
     std::vector<Polygon> given(static_cast<std::size_t>(py::len(polygons)));
@@ -97,59 +96,50 @@ py::list snapTogetherOf(const py::list& polygons, double tolerance) {
       given[i] = polygonOf(polygons[i][0], py::list(polygons[i][1]));
     py::list result;
     for (const Snapped& one : snapTogether(std::move(given), tolerance))
-      result.append(toTuple(one));
+      result.append(recordOf(one));
     return result;
   });
 }
 
 struct Bonded {
-  CommonSides found;
-  std::size_t sides = 0;
+  py::object found;
   ConformPlan done;
-  std::string problem;
-
-  [[nodiscard]] py::tuple result() const {
-    return py::make_tuple(sides, done.corners, done.farthest, problem);
-  }
 };
 
-/// Runs `work`, which bonds sides and describes them in a Bonded, between two steps.
+/// Runs `work`, which bonds sides and returns an object with their number, between two steps; the
+/// object gets: corners moved, farthest move (m), problem: message about the mesh or ''.
 template <class Work>
-Bonded bonded(FESolver& solver, const Work& work) {
-  return change(solver, [&] {
-    return solver.bond([&](World& world) {
-      Bonded result;
-      const EdgeId first(world.fracture.edges.size());
-      work(world, result);
-      if (result.sides > 0)
-        result.problem = bondZoneWarning(world.model, world.fracture.edges, first);
-      return result;
-    });
+py::object bonded(FESolver& solver, const Work& work) {
+  const auto bondAndTell = [&](World& world) {
+    Bonded result;
+    const EdgeId first(world.fracture.edges.size());
+    result.found = work(world, result.done);
+    std::string problem;
+    if (py::extract<std::size_t>(result.found.attr("sides")) > 0)
+      problem = bondZoneWarning(world.model, world.fracture.edges, first);
+    setAttributes(result.found, "corners", result.done.corners, "farthest", result.done.farthest,
+                  "problem", problem);
+    return result;
+  };
+  return change(solver, [&] { return solver.bond(bondAndTell).found; });
+}
+
+py::object bondOf(FESolver& solver, int a, int b, double strength, double energy) {
+  return bonded(solver, [&](World& world, ConformPlan& done) {
+    return record("sides",
+                  world.bond(ComponentId(static_cast<std::size_t>(a)),
+                             ComponentId(static_cast<std::size_t>(b)), strength, energy, &done));
   });
 }
 
-/// (sides, corners moved, farthest move (m), message about the mesh or '').
-py::tuple bondOf(FESolver& solver, int a, int b, double strength, double energy) {
-  return bonded(solver,
-                [&](World& world, Bonded& result) {
-                  result.sides = world.bond(ComponentId(static_cast<std::size_t>(a)),
-                                            ComponentId(static_cast<std::size_t>(b)), strength,
-                                            energy, &result.done);
-                })
-      .result();
-}
-
-/// The same, and the number of sides that do not match, two bodies and a place (m) of which this is
-/// true.
-py::tuple bondAllOf(FESolver& solver, double reach, double strength, double energy) {
-  const Bonded all = bonded(solver, [&](World& world, Bonded& result) {
-    result.found = world.bondAll(reach, strength, energy, &result.done);
-    result.sides = result.found.pairs.size();
+/// Also the number of sides that do not match, two bodies and a place (m) of which this is true.
+py::object bondAllOf(FESolver& solver, double reach, double strength, double energy) {
+  return bonded(solver, [&](World& world, ConformPlan& done) {
+    const CommonSides found = world.bondAll(reach, strength, energy, &done);
+    return record("sides", found.pairs.size(), "unmatched", found.unmatched, "bodies",
+                  py::make_tuple(found.bodies[0].value, found.bodies[1].value), "place",
+                  py::make_tuple(found.place.x, found.place.y));
   });
-  const CommonSides& found = all.found;
-  return py::make_tuple(all.result(), found.unmatched,
-                        py::make_tuple(found.bodies[0].value, found.bodies[1].value),
-                        py::make_tuple(found.place.x, found.place.y));
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ using SolverClass = yade::py::class_<FESolver, boost::shared_ptr<FESolver>,
 // In the module _yadefrag.
 void defineBodyParts();
 void defineMeshes();
-void defineOutlines();
 
 // In FESolver; addPolygon and others are written in Python (python/yadefrag/fe/solver.py).
 void defineArrays(SolverClass& solver);

@@ -63,12 +63,10 @@ py::object trianglesOf(const FESolver& solver) {
   return toArray(triangles);
 }
 
-py::object stressArrayOf(const FESolver& solver) {
-  return toArray(stresses(solver.world().model, solver.world().lastDt));
-}
-
-py::object acrossArrayOf(const FESolver& solver) {
-  return toArray(stressesAcross(solver.world().model, solver.world().lastDt));
+/// What a function of the model and its last step gives for each triangle.
+template <auto state>
+py::object stateOf(const FESolver& solver) {
+  return toArray(state(solver.world().model, solver.world().lastDt));
 }
 
 bool anyYields(const FESolver& solver) { return solver.world().model.triangles.plastic.isUsed(); }
@@ -78,7 +76,8 @@ bool anyFails(const FESolver& solver) {
 }
 
 /// Of the present state; 0 for triangles that do not yield.
-py::object yieldingArray(const FESolver& solver, double YieldPoint::*which) {
+template <double YieldPoint::*which>
+py::object yieldingOf(const FESolver& solver) {
   const Model& model = solver.world().model;
   std::vector<double> values(model.triangles.size());
   if (model.triangles.plastic.isUsed()) {
@@ -88,18 +87,6 @@ py::object yieldingArray(const FESolver& solver, double YieldPoint::*which) {
         values[e] = points[e].*which;
   }
   return toArray(values);
-}
-
-py::object plasticStrainOf(const FESolver& solver) {
-  return yieldingArray(solver, &YieldPoint::strain);
-}
-
-py::object temperatureOf(const FESolver& solver) {
-  return yieldingArray(solver, &YieldPoint::temperature);
-}
-
-py::object damageOf(const FESolver& solver) {
-  return toArray(presentDamage(solver.world().model, solver.world().lastDt));
 }
 
 py::object componentsOf(const FESolver& solver) {
@@ -150,10 +137,6 @@ py::object fragmentOf(const FESolver& solver) {
   return toArray(numbers).attr("view")("int32");  // −1: removed
 }
 
-py::object referenceOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.reference);
-}
-
 /// True for a segment of a rigid boundary or of a removed fragment.
 bool isHidden(const World& world, SegmentId segment) {
   const ContactSurfaces& surfaces = world.surfaces;
@@ -202,22 +185,22 @@ void defineArrays(SolverClass& solver) {
                     "Of the nodes (kg), array (n).")
       .add_property("triangles", &Locked<trianglesOf>::call,
                     "Node numbers, counter-clockwise, array (m, 3).")
-      .add_property("stress", &Locked<stressArrayOf>::call,
+      .add_property("stress", &Locked<stateOf<stresses>>::call,
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
-      .add_property("stressZ", &Locked<acrossArrayOf>::call,
+      .add_property("stressZ", &Locked<stateOf<stressesAcross>>::call,
                     "Cauchy stress zz (Pa) of the triangles, across the plane, array (m); 0 in "
                     "plane stress.")
       .add_property(
           "strain", &Locked<strainArrayOf>::call,
           "Green and Lagrange's strain xx, yy, xy (half the shear angle) of the triangles, array "
           "(m, 3): (FᵀF - 1)/2, of each triangle alone where `element` is 'smoothed', too.")
-      .add_property("plasticStrain", &Locked<plasticStrainOf>::call,
+      .add_property("plasticStrain", &Locked<yieldingOf<&YieldPoint::strain>>::call,
                     "Equivalent plastic strain of the triangles, array (m); 0 where the material "
                     "does not yield.")
-      .add_property("temperature", &Locked<temperatureOf>::call,
+      .add_property("temperature", &Locked<yieldingOf<&YieldPoint::temperature>>::call,
                     "Of the triangles (K), array (m), raised by plastic work, without conduction; "
                     "0 where the material does not yield.")
-      .add_property("damage", &Locked<damageOf>::call,
+      .add_property("damage", &Locked<stateOf<presentDamage>>::call,
                     "Damage of the triangles, array (m), from 0 to 1, where the material has "
                     "failed; 0 where it cannot.")
       .add_property("components", &Locked<componentsOf>::call,
@@ -242,7 +225,7 @@ void defineArrays(SolverClass& solver) {
                     "fragments do not count.")
       .add_property("_fails", &Locked<anyFails>::call)
       .add_property("_yields", &Locked<anyYields>::call)
-      .add_property("_reference", &Locked<referenceOf>::call)
+      .add_property("_reference", &Locked<columnOf<&Nodes::reference>>::call)
       .add_property("_loads", &Locked<loadsOf>::call)
       .add_property("_names", &Locked<namesOf>::call)
       .def("_nodesOf", &Locked<nodesOfBody>::call)

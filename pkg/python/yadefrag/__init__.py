@@ -37,20 +37,20 @@ else:
 
 # Only now, because these need FESolver.
 from yadefrag import io, plots, studies  # noqa: E402
-from yadefrag.about import about  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
+from yadefrag.fe.fields import crackTable  # noqa: E402
 from yadefrag.fe.geometry import circle, rectangle, ring  # noqa: E402
 from yadefrag.fe.grains import grainJoints, voronoi  # noqa: E402
 from yadefrag.fe.mesh import Mesh, polygonMesh, rectangleMesh
-from yadefrag.fe.results import crackTable  # noqa: E402
-from yadefrag.fe.snapping import snapOutlines  # noqa: E402
+from yadefrag.fe.neighbours import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
 from yadefrag.messages import inWords  # noqa: E402
 from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
 from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
-from yadefrag.scene import attributes, lifecycle, mpy  # noqa: E402
+from yadefrag.scene import guards, lifecycle, mpy  # noqa: E402
 from yadefrag.scene.engines import engines, inCurveOrder, installColliders
 from yadefrag.scene.lifecycle import runSteps  # noqa: E402
+from yadefrag.support import about  # noqa: E402
 from yadefrag.studies import EnsembleTable, TradeoffTable, ensemble, tradeoff  # noqa: E402
 
 
@@ -67,6 +67,8 @@ def _renewDispatchers():
 
 
 solver.install()
+guards.guardBodies()
+guards.guardSolver()
 lifecycle.install()
 mpy.install()
 installColliders([name for name in __all__ if name.endswith('Collider')])
@@ -74,7 +76,7 @@ _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)
     setattr(builtins, _name, globals()[_name])
-    attributes.install(globals()[_name])
+    guards.guardAttributes(globals()[_name])
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh', 'outlineReport', 'snapOutlines',
             'voronoi', 'grainJoints', 'Mesh', 'polygonMesh', 'rectangleMesh', 'plotMesh', 'animate', 'exportVTK',

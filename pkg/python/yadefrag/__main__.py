@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-from yadefrag import _built
+from yadefrag._built import COMMAND
 
 _PROGRAM = """
 import sys
@@ -19,7 +19,7 @@ sys.exit(0 if well else 1)
 
 def main() -> int:
     """Prints the report of yadefrag.about() in a new yade; returns 0 if all checks succeed, else 1."""
-    yade = shutil.which(_built.COMMAND) or '/usr/bin/yade'
+    yade = shutil.which(COMMAND) or '/usr/bin/yade'
     if not os.path.exists(yade):
         print('yadefrag: there is no command `yade` on this system; install the package yade.', file=sys.stderr)
         return 1

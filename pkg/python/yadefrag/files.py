@@ -89,7 +89,9 @@ def appendText(name: str, text: str) -> None:
 
 
 def savePicture(figure: Any, file: Any, dpi: float, **settings: Any) -> None:
-    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open file."""
+    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open file; not for None."""
+    if file is None:
+        return
     if hasattr(file, 'write'):
         figure.savefig(file, dpi=dpi, **settings)
         return

@@ -1,23 +1,27 @@
-"""Checks that the running YADE is the one for which this build of yadefrag was made.
+"""Checks that the running YADE is the one for which this build of yadefrag was made; a report on the installation.
 
 The check is in Python, before the extension is loaded: another YADE may lack symbols that it needs.
 """
 
+import os
+import pathlib
+import platform
 import sys
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
-from yadefrag import _built
+# VERSION: the extension is built for the layout of one YADE, that which was installed at the build. With YADE's own
+# headers the layout is that of exactly the FEATURES. ACCEPTED: every version of a package for which a build can be
+# made, with its system.
+from yadefrag._built import ACCEPTED, BUILD, BUILD_ID, FEATURES, VERSION, YADEFRAG
 from yadefrag.build_id import buildId
 
-YADEFRAG = _built.YADEFRAG
-# The extension is built for the layout of one YADE: that which was installed at the build.
-VERSION = _built.VERSION
-# Every version of a package for which a build can be made, with its system.
-ACCEPTED = _built.ACCEPTED
+_OWN = pathlib.Path(__file__).resolve().parent
+# Folders of a source tree (by links in its build folder) and of installations: below /usr, /usr/local, or in the
+# folder of a YADE that its user built.
+_PLACES = tuple((_OWN / place).resolve() for place in
+                ('../../..', '../../../../share/doc/yadefrag', '../../../../../share/doc/yadefrag'))
 PRECISION = 'PrecisionDouble'
-# With YADE's own headers the layout is that of exactly these features.
-FEATURES = _built.FEATURES
 # With the declarations of pkg/abi: features that add members of YADE's classes that the extension expects ...
 NEEDED = ('OPENMP', 'MPI', 'QT5', 'FEMLIKE')
 # ... and these add, widen or align members that it does not expect.
@@ -40,7 +44,7 @@ def describeMismatch(version: str, precision: str, features: Collection[str]) ->
     if wrong:
         found, needed = map(', '.join, zip(*wrong))
         return ('this build of yadefrag needs YADE %s as %s, with %s; the running yade '
-                'has %s%s.' % (VERSION, _built.BUILD, needed, found, describeRemedy(version)))
+                'has %s%s.' % (VERSION, BUILD, needed, found, describeRemedy(version)))
     return describeUntried(version)
 
 
@@ -78,11 +82,11 @@ def describeSurroundings(modules: Mapping[str, Any] | None = None) -> str:
 def describeOtherBuild(libraries: str) -> str:
     """'' unless the library in the folder `libraries` is another build of the same version."""
     found = buildId(libraries)
-    if found == _built.BUILD_ID:
+    if found == BUILD_ID:
         return ''
     return ('this build of yadefrag needs the YADE %s with the build id %s, and the running yade in %s has %s: '
             'yadefrag must be built or installed again.' % (
-                VERSION, _built.BUILD_ID or '(none)', libraries, found or 'none'))
+                VERSION, BUILD_ID or '(none)', libraries, found or 'none'))
 
 
 def isReportAsked() -> bool:
@@ -96,3 +100,52 @@ def require() -> None:
     problem = describeSurroundings()
     if problem:
         raise ImportError(problem)
+
+
+# --- the report
+
+def about(show: Callable[[str], Any] = print) -> bool:
+    """Prints what is installed and whether it works; returns True if all checks succeed.
+
+    Versions of yadefrag, YADE and Python; whether YADE's classes have the layout for which the
+    extension was built; instruction set and threads of the finite elements; folders
+    of examples and manual. `python3 -m yadefrag`, outside YADE, prints the same; its exit code is 0 if all checks
+    succeed, else 1.
+
+    show  called with each line (default: print)
+    """
+    from yadefrag.arguments import refuse
+    if not callable(show):
+        refuse('show', show, 'a function that takes a line')
+    well = True
+    for name, text, good in _rows():
+        show('%-12s %s%s' % (name, text, '' if good else '   <- not as it should be'))
+        well = well and good
+    show('All is well.' if well else 'Not all is well: see above.')
+    return well
+
+
+def _rows():
+    """(name, text, True if it is correct), line by line."""
+    from yade import config
+
+    from yadefrag import _yadefrag
+    yield 'yadefrag', '%s in %s' % (YADEFRAG, _OWN), True
+    yield 'YADE', '%s in %s; built for %s as %s' % (config.version, config.libDir, VERSION, BUILD), (
+        config.version == VERSION)
+    yield 'built with', ("the declarations of pkg/abi, for a YADE package without headers" if FEATURES is None
+                         else "YADE's own headers, for its features " + ', '.join(FEATURES)), True
+    yield 'Python', platform.python_version(), True
+    problem = describeSurroundings()
+    yield 'interface', problem or "YADE's classes have the expected layout", not problem
+    yield 'instructions', _yadefrag.instructionSet(), True
+    threads = os.environ.get('OMP_NUM_THREADS') or 1
+    yield 'threads', '%s of %d (yade -j N)' % (threads, len(os.sched_getaffinity(0))), True
+    examples, manual = _place('examples'), _place('docs') or _place('README.md')
+    yield 'examples', str(examples or 'not found'), examples is not None
+    yield 'manual', str(manual or 'not found'), manual is not None
+
+
+def _place(name):
+    """Path of the first of the folders that contains `name`; None if none does."""
+    return next((place / name for place in _PLACES if (place / name).exists()), None)

@@ -30,12 +30,6 @@ def _length(name, value):
     return length
 
 
-def _count(n):
-    if n is None:
-        return CIRCLE_POINTS
-    return whole('n', n, 3, 'a whole number of at least 3 points', MOST_POINTS)
-
-
 def rectangle(low: ArrayLike, high: ArrayLike) -> Loop:
     """The four corners of an axis-parallel rectangle from its lower left and upper right corner
     (m).
@@ -61,7 +55,7 @@ def circle(centre: ArrayLike, radius: float, n: int | None = None) -> Loop:
     """
     x, y = _pair('centre', centre)
     radius = _length('radius', radius)
-    count = _count(n)
+    count = CIRCLE_POINTS if n is None else whole('n', n, 3, 'a whole number of at least 3 points', MOST_POINTS)
     angles = [2 * math.pi * i / count for i in range(count)]
     return [(x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles]
 

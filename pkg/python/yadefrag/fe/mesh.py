@@ -13,8 +13,8 @@ import numpy
 from yadefrag import _yadefrag
 from yadefrag._yadefrag import Mesh
 from yadefrag.arguments import (ArrayLike, ByPlace, FESolver, array, flag, listOf, number, pair, pointsOf, positive,
-                                refuse, requireTakes, shown, whole)
-from yadefrag.fe.geometry import holesOf, simplified
+                                refuse, requireTakes, whole)
+from yadefrag.fe.geometry import holesOf, rectangle, simplified
 from yadefrag.fe.mesh_values import isClockwise, isField, mayCrack, smoothFlags, smoothNodes
 from yadefrag.io.mesh_files import MeshFile, requireApart
 from yadefrag.messages import inWords, warn
@@ -100,10 +100,6 @@ def _boundaryLoops(points, triangles):
     return loops
 
 
-def _pair(self):
-    return self.nodes, self.triangles
-
-
 def _repr(self):
     return 'Mesh of %d nodes and %d triangles, boundary loops of %s nodes%s' % (
         len(self.nodes), len(self.triangles), ', '.join(str(len(loop)) for loop in self.loops),
@@ -117,14 +113,14 @@ def _restored(*parts):
 
 
 def _reduce(self):
-    return _restored, (*_pair(self), self.loops, self._loopVertices, self.joints, self.joined, self._numJoints,
-                       self.smooth), self.__dict__
+    return _restored, (self.nodes, self.triangles, self.loops, self._loopVertices, self.joints, self.joined,
+                       self._numJoints, self.smooth), self.__dict__
 
 
 _init.__name__ = 'Mesh'
 Mesh.__init__ = inWords(_init)
-Mesh.__iter__ = lambda self: iter(_pair(self))
-Mesh.__getitem__ = lambda self, index: _pair(self)[index]
+Mesh.__iter__ = lambda self: iter((self.nodes, self.triangles))
+Mesh.__getitem__ = lambda self, index: (self.nodes, self.triangles)[index]
 Mesh.__len__ = lambda self: 2
 Mesh.__repr__ = _repr
 Mesh.__reduce__ = _reduce
@@ -157,11 +153,8 @@ def rectangleMesh(low: ArrayLike, high: ArrayLike, nx: int, ny: int, crossed: bo
     Each quad is divided in two triangles, with diagonals of neighbours mirrored, or in four
     (`crossed`).
     """
-    low, high = pair('low', low), pair('high', high)
-    nx, ny, crossed = whole('nx', nx), whole('ny', ny), flag('crossed', crossed)
-    if not (low[0] < high[0] and low[1] < high[1]):
-        raise ValueError('high is %s, it must be right of and above low, %s.' % (shown(high), shown(low)))
-    return _yadefrag.meshOfRectangle(*low, *high, nx, ny, crossed)
+    low, _, high, _ = rectangle(low, high)
+    return _yadefrag.meshOfRectangle(*low, *high, whole('nx', nx), whole('ny', ny), flag('crossed', crossed))
 
 
 def withArguments(text: str | None) -> str:
@@ -170,8 +163,24 @@ def withArguments(text: str | None) -> str:
     return inspect.cleandoc(text or '').replace('{arguments}', ARGUMENTS)
 
 
-def _sampledSize(function, points):
-    """(left, bottom, cell, columns, values): the size at the points of a square grid."""
+def _jointLines(joints):
+    """(k, 4) floats, the ends of each joint: addPolygon's `joints`."""
+    ends, right = [], 'a pair of points ((x, y), (x, y)) in m'
+    for i, line in enumerate(listOf('joints', joints, 'a list of pairs of points ((x, y), (x, y)) in m')):
+        both = listOf('joints[%d]' % i, line, right)
+        if len(both) != 2:
+            refuse('joints[%d]' % i, line, right)
+        ends.append([*pair('joints[%d][0]' % i, both[0]), *pair('joints[%d][1]' % i, both[1])])
+    return numpy.array(ends, dtype=float).reshape(-1, 4)
+
+
+def _sizeOf(size, points):
+    """addPolygon's `size`, as _yadefrag.meshOfPolygon takes it: (m,), or, of a function, (left, bottom, cell, columns,
+    values) at the points of a square grid."""
+    if not callable(size):
+        return (number('size', size, lambda v: math.isfinite(v) and v > 0,
+                       'a positive number (m) or a function (x, y) that returns one'),)
+    requireTakes('size', size, 'x', 'y')
     low, high = points.min(axis=0), points.max(axis=0)
     samples = _LEAST_SAMPLES
     while True:
@@ -179,47 +188,10 @@ def _sampledSize(function, points):
         columns, rows = (max(2, int(math.ceil(side / cell - 1e-9)) + 1) for side in high - low)
         places = [(float(low[0] + i * cell), float(low[1] + j * cell)) for j in range(rows)
                   for i in range(columns)]
-        values = numpy.array([positive('size(%g, %g)' % (x, y), function(x, y), 'm') for x, y in places])
+        values = numpy.array([positive('size(%g, %g)' % (x, y), size(x, y), 'm') for x, y in places])
         if values.min() >= cell or samples >= _MOST_SAMPLES:
             return float(low[0]), float(low[1]), cell, columns, values
         samples *= 2
-
-
-def isIrregular(mesh: str | None, material: object) -> bool:
-    """True for an irregular mesh, by the argument `mesh`; None: irregular for a body that can
-    crack, or whose materials are known only after meshing."""
-    if mesh is None:
-        return isField(material) or mayCrack(material)
-    if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
-        refuse('mesh', mesh, "'regular', 'irregular' or None")
-    return mesh == 'irregular'
-
-
-def jointLines(joints: Any) -> numpy.ndarray:
-    """(k, 4) floats, the ends of each joint: addPolygon's `joints`."""
-    lines = listOf('joints', joints, 'a list of pairs of points ((x, y), (x, y)) in m')
-    ends = numpy.zeros((len(lines), 4))
-    for i, line in enumerate(lines):
-        right = 'a pair of points ((x, y), (x, y)) in m'
-        both = listOf('joints[%d]' % i, line, right)
-        if len(both) != 2:
-            refuse('joints[%d]' % i, line, right)
-        ends[i] = [*pair('joints[%d][0]' % i, both[0]), *pair('joints[%d][1]' % i, both[1])]
-    return ends
-
-
-def sizeOf(size: Any, points: numpy.ndarray) -> tuple:
-    """addPolygon's `size`, as _yadefrag.meshOfPolygon takes it: (m,), or a sampled function."""
-    if callable(size):
-        requireTakes('size', size, 'x', 'y')
-        return _sampledSize(size, points)
-    return (number('size', size, lambda v: math.isfinite(v) and v > 0,
-                   'a positive number (m) or a function (x, y) that returns one'),)
-
-
-def leastSize(wanted: tuple) -> float:
-    """(m) The smallest size of a result of sizeOf."""
-    return wanted[0] if len(wanted) == 1 else float(wanted[4].min())
 
 
 class Outline:
@@ -234,17 +206,17 @@ class Outline:
         points, holes, flags = simplified(self.points, self.holes, tolerance, None if isOne else self.smooth)
         return Outline(points, holes, self.smooth if isOne else flags)
 
-    def snapped(self, fe: FESolver, tolerance: float, size: float, matches: bool) -> tuple[Any, ...]:
-        """(Outline, moved, inserted, farthest) on the present bodies of `fe`."""
-        loops, *count = fe._snap(self.points, self.holes, (tolerance, _SPACING * size, matches))
-        (points, vertex, inserted), *holes = loops
-        smooth = self.smooth
+    def snapped(self, fe: FESolver, tolerance: float, size: float, matches: bool) -> tuple[Outline, Any]:
+        """(Outline on the present bodies of `fe`, an object with moved, inserted and farthest)."""
+        done = fe._snap(self.points, self.holes, tolerance, _SPACING * size, matches)
+        outer, *holes = done.loops
+        vertex, smooth = outer.vertex, self.smooth
         if not isinstance(smooth, bool):
             if isClockwise(self.points):  # the result has it reversed, with the same first point
                 smooth = smooth[-numpy.arange(len(smooth)) % len(smooth)]
             within = smooth[vertex] & numpy.roll(smooth, -1)[vertex]
-            smooth = numpy.where(inserted == 1, within, smooth[vertex])
-        return (Outline(points, [hole[0] for hole in holes], smooth), *count)
+            smooth = numpy.where(outer.isInserted == 1, within, smooth[vertex])
+        return Outline(outer.points, [hole.points for hole in holes], smooth), done
 
 
 class Meshing:
@@ -264,10 +236,13 @@ class Meshing:
         self.outline = Outline(points, loops, smoothFlags(smooth, len(points)))
         if simplify is not None:
             self.outline = self.outline.simplified(simplify)
-        self.lines = jointLines(joints)
-        self._irregular = isIrregular(mesh, material)
-        self._sizes = sizeOf(size, self.outline.points)
-        self.size = leastSize(self._sizes)
+        self.lines = _jointLines(joints)
+        if mesh is not None and (not isinstance(mesh, str) or mesh not in ('regular', 'irregular')):
+            refuse('mesh', mesh, "'regular', 'irregular' or None")
+        # None: irregular for a body that can crack, or whose materials are known only after meshing.
+        self._irregular = mesh == 'irregular' if mesh else isField(material) or mayCrack(material)
+        self._sizes = _sizeOf(size, self.outline.points)
+        self.size = float(numpy.min(self._sizes[-1]))
         self.jointTolerance = _JOINTS * self.size if jointTolerance is None else jointTolerance
         self._seed = whole('meshSeed', meshSeed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
 

@@ -24,16 +24,13 @@ def centroids(mesh: Mesh) -> numpy.ndarray:
     return mesh.nodes[mesh.triangles].mean(axis=1)
 
 
-def _real(name, value):
-    return number(name, value, lambda v: True, 'a number')
-
-
 def _ofTriangles(name, value, mesh):
     """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for None."""
     if value is None:
         return numpy.empty(0)
     if callable(value):
-        return numpy.array(atPlaces(name, value, centroids(mesh), _real))
+        return numpy.array(atPlaces(name, value, centroids(mesh),
+                                    lambda at, one: number(at, one, lambda v: True, 'a number')))
     values = array(value)
     if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
         refuse(name, value, 'None, a function (x, y) that returns a number (%s), or an array of one for each '
@@ -140,13 +137,16 @@ def smoothFlags(smooth: Any, count: int) -> bool | numpy.ndarray:
     smooth = plain(smooth)
     if isinstance(smooth, bool):
         return smooth
-    flags = _flags(smooth)
-    if flags is None:
+    try:
+        flags = [plain(value) for value in smooth]
+    except TypeError:
+        flags = [None]
+    if not all(isinstance(one, int) and one in (0, 1) for one in flags):
         refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
     if len(flags) != count:
         raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
                          'the outline.' % (len(flags), count))
-    return flags
+    return numpy.array(flags, dtype=bool)
 
 
 def smoothNodes(smooth: bool | numpy.ndarray, mesh: Mesh, outline: Any = ()) -> numpy.ndarray:
@@ -168,16 +168,6 @@ def smoothNodes(smooth: bool | numpy.ndarray, mesh: Mesh, outline: Any = ()) -> 
     for loop, flags in chosen:
         marks[loop] = flags
     return marks
-
-
-def _flags(values):
-    """(n) of bool; None if it is not a list of True and False, or of 1 and 0."""
-    try:
-        flags = [plain(value) for value in values]
-    except TypeError:
-        return None
-    isRight = all(isinstance(f, int) and f in (0, 1) for f in flags)
-    return numpy.array(flags, dtype=bool) if isRight else None
 
 
 def oneMaterial(material: Any, name: str = 'material', right: str = _RIGHT) -> FEMat:

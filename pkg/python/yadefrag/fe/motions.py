@@ -180,7 +180,9 @@ def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: num
     if not len(fixed):
         return
     rigid = _rigidMotion(places[fixed], velocity[fixed])
-    if rigid is None or _areInLine(places[fixed]):  # the nodes of a line may rotate in a sheared body
+    arms = places[fixed] - places[fixed].mean(axis=0)
+    spread = numpy.linalg.eigvalsh(arms.T @ arms)
+    if rigid is None or spread[0] <= _ROUNDING * spread[1]:  # the nodes of a line may rotate in a sheared body
         rigid = _rigidMotion(places, velocity)
     if rigid is None:
         return
@@ -203,12 +205,6 @@ def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: num
     chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
     vx, vy = (tableOrNumber('velocity', float(one), 'm/s') for one in drift)
     _move(fe, chosen, 3, tuple(map(float, centre)), vx, vy, tableOrNumber('spin', float(total), 'rad/s'))
-
-
-def _areInLine(places):
-    arms = places - places.mean(axis=0)
-    spread = numpy.linalg.eigvalsh(arms.T @ arms)
-    return spread[0] <= _ROUNDING * spread[1]
 
 
 def _rigidMotion(places, velocity):

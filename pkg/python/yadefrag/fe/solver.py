@@ -6,7 +6,6 @@ was given and what is valid.
 
 from __future__ import annotations
 
-import functools
 import inspect
 import math
 from collections.abc import Iterable, Sequence
@@ -16,16 +15,14 @@ import numpy
 
 from yade import wrapper
 from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, flag, number, positive, real, refuse
-from yadefrag.fe import guards
-from yadefrag.fe.bonds import bond, bondAll
 from yadefrag.fe.contents import betweenSteps, componentOf, newName, nodesOf, requireBetweenSteps, shownTriangles
+from yadefrag.fe.fields import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
 from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.fe.mesh import Mesh, Meshing, asMesh, withArguments
 from yadefrag.fe.mesh_values import (Materials, brittlePlaces, field, heldNodes, interfaces, isField, oneMaterial,
                                      smoothNodes, stressOfTriangles)
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
-from yadefrag.fe.results import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
-from yadefrag.fe.snapping import Overlap, addSnapped, snapTolerance, tellCostly, tellJoined
+from yadefrag.fe.neighbours import Overlap, addSnapped, bond, bondAll, snapTolerance, tellCostly, tellJoined
 from yadefrag.io.mesh_files import MeshFile
 from yadefrag.messages import forget, inWords, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
@@ -131,18 +128,19 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     held = heldNodes(fixed, nodes)
     if not len(fe.masses):
         forget()  # messages of another solver
-    component, message, depth = fe._addMesh(
+    added = fe._addMesh(
         mesh=mesh, materials=materials.of, materialOf=materials.numbers, places=places, velocity=speed,
         displacement=moved, stress=stressed, stressAcross=across, held=held, smooth=smooth,
         thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed', name=name)
+    component = added.component
     if component < 0:
-        raise Overlap(message, depth)
+        raise Overlap(added.message, added.depth)
     addSolver(fe)
     if fixed is not None:
         noteFixed(fixed, component, bool(held.any()))
     keepTurning(fe, component, held, given, spin, present, centroid)
-    if message:
-        warnOfOne(message, 'bodies', component)
+    if added.message:
+        warnOfOne(added.message, 'bodies', component)
     return component
 
 
@@ -257,15 +255,6 @@ def _arrangedPolygon(self, outline=None, *others):
     return first, dict(zip(names, others))
 
 
-def _guardFragments(fragments):
-    @functools.wraps(fragments)
-    def guarded(self, held=True):
-        return fragments(self, flag('held', held))
-
-    guarded.__qualname__ = 'FESolver.fragments'
-    return guarded
-
-
 def _minAngle(self):
     """Smallest angle (rad) of any triangle at present; inf without bodies."""
     with betweenSteps(self):
@@ -282,7 +271,7 @@ def _minAngle(self):
 
 
 def install() -> None:
-    """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its bodies."""
+    """Adds the methods to FESolver."""
     wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
     for method in (addMesh, addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb,
                    relax, reaction, contactForce, meshQuality):
@@ -291,5 +280,3 @@ def install() -> None:
                        ('energy', energy)):
         setattr(wrapper.FESolver, name, property(read, doc=read.__doc__))
     wrapper.FESolver.loads = property(getLoads, setLoads, doc=getLoads.__doc__)
-    wrapper.FESolver.fragments = inWords(_guardFragments(wrapper.FESolver.fragments))
-    guards.install()

@@ -83,10 +83,9 @@ def readMesh(file: File, scale: float = 1) -> MeshFile:
         elements = read(name)
     except (ValueError, IndexError, KeyError, OSError, OverflowError, MemoryError) as error:
         refuseFile(name, 'mesh', error)
-    requirePlaneKinds(elements, name)
-    used = usedPoints(elements, name)
+    used = _usedPoints(elements, name)
     points = scale * _plane(numpy.asarray(elements.points, dtype=float), used, name)
-    triangles, source, told = trianglesOf(elements, points, name)
+    triangles, source, told = _trianglesOf(elements, points, name)
     told = elements.leftOut + told + _looseLines(elements, triangles)
     if told:
         warn('readMesh: %s: left out are %s.' % (shownPath(name), '; '.join(told)))
@@ -139,18 +138,15 @@ def _nodeSets(elements):
         yield name, numpy.asarray(nodes, dtype=int)
 
 
-def requirePlaneKinds(elements: Elements, name: str) -> None:
-    """ValueError for solids and for kinds that are not known."""
+def _usedPoints(elements, name):
+    """Numbers of the points of triangles and quads, also those between corners. ValueError for solids and for kinds
+    that are not known."""
     for kind, _, numbers in elements.blocks:
         if len(numbers) and not cornersOf(kind):
             shown = kind.rstrip('0123456789') if kind[0].islower() else kind
             raise ValueError("%s has elements of the kind '%s', %d of them, the first with the number %s; those of "
                              'a plane mesh are triangles and quads.' %
                              (shownPath(name), shown, len(numbers), elements.labels[numbers[0]]))
-
-
-def usedPoints(elements: Elements, name: str) -> numpy.ndarray:
-    """Numbers of the points of triangles and quads, also those between corners."""
     parts = [numpy.zeros(0, dtype=int)]
     for kind, nodes, numbers in elements.blocks:
         if cornersOf(kind) < 3 or not len(numbers):
@@ -168,8 +164,7 @@ def usedPoints(elements: Elements, name: str) -> numpy.ndarray:
     return used
 
 
-def trianglesOf(elements: Elements, points: numpy.ndarray,
-                name: str) -> tuple[numpy.ndarray, numpy.ndarray, list[str]]:
+def _trianglesOf(elements, points, name):
     """(triangles (m, 3) numbers of points, counter-clockwise; (m) number of the element of each; sentences
     about what is not as in the file). `points` (n, 2) in m. ValueError with the number of an element
     that is flat, collapsed, concave, doubled or inverted."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 MOST_PANELS = 12  # in one picture
 # Twelve for curves in one picture. Any two differ by at least 0.25 in red, green and blue together.
-DISTINCT = ('#1f77b4', '#d62728', '#2ca02c', '#ff7f0e', '#9467bd', '#17becf', '#8c564b', '#e377c2',
+DISTINCT: tuple[str, ...] = ('#1f77b4', '#d62728', '#2ca02c', '#ff7f0e', '#9467bd', '#17becf', '#8c564b', '#e377c2',
             '#000000', '#bcbd22', '#7f7f7f', '#005a1e')
 
 _MOST_PARTS = 100  # of a side
@@ -25,17 +25,14 @@ _SATURATED = 10  # first colours of the palette, used before the pale ones
 WIDENING = .5  # of the other contents: largest enlargement of a picture by rigid bodies, per side
 
 
-def requireAxes(ax: object) -> Axes:
-    """`ax`; ValueError if it is not an Axes of Matplotlib."""
+def axesOf(ax: object) -> Axes:
+    """`ax`, or, for None, axes of a new figure; ValueError if it is not an Axes of Matplotlib."""
     from matplotlib.axes import Axes
+    if ax is None:
+        return _figure(8, 6).add_subplot()
     if not isinstance(ax, Axes):
         refuse('ax', ax, "Matplotlib's axes")
     return ax
-
-
-def newAxes() -> Axes:
-    """Axes of a new figure. Without pyplot: a picture for a file must not need, or open, a window."""
-    return _figure(8, 6).add_subplot()
 
 
 def _isWide(width, height):
@@ -69,6 +66,7 @@ def newPanels(count: int, width: float, height: float) -> list[Axes]:
 
 
 def _figure(width, height, layout='compressed'):
+    """Without pyplot: a picture for a file must not need, or open, a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     # Both leave labels room; the compressed one also moves axes of a fixed ratio together.

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy
 
+from yade.wrapper import Omega
 from yadefrag.arguments import FESolver, File, flag, isWhole, path, plain, refuse, shownPath
 from yadefrag.fe.contents import betweenSteps, existingBody, requireSolver
 from yadefrag.files import appendText, savePicture, writeColumns, writeText
-from yadefrag.plots.axes import DISTINCT, newAxes, requireAxes
+from yadefrag.plots.axes import DISTINCT, axesOf
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,15 +70,14 @@ def plotFragmentSizes(fe: FESolver, file: File | None = None, ax: Axes | None = 
         chosen = table[numpy.isin(table['fragment'], of[numpy.isin(fe.components, bodies)])]
     if len(chosen) == 0:
         raise ValueError('fe has no broken body: there are no sizes to draw.')
-    ax = newAxes() if ax is None else requireAxes(ax)
+    ax = axesOf(ax)
     # The curve falls after each size: the point (size, number) is the last one on its level.
     sizes = chosen['size'][::-1]
     ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4, linewidth=1)
     ax.set(xscale='log', yscale='log', xlabel='size of a fragment, √area (m)',
            ylabel='fragments at least as large')
     ax.grid(True, which='both', linewidth=.3)
-    if file is not None:
-        savePicture(ax.figure, file, dpi=150)
+    savePicture(ax.figure, file, dpi=150)
     return ax
 
 
@@ -132,7 +132,6 @@ def recordFracture(fe: FESolver, file: File, append: bool = False) -> Callable[[
         writeText(name, _RECORDED + '\n')
 
     def record():
-        from yade.wrapper import Omega
         scene = Omega()
         with betweenSteps(fe):
             energy = fe.energy
@@ -172,7 +171,7 @@ def plotFracture(file: File, picture: File | None = None) -> tuple[Axes, Axes]:
     """
     data = _recorded(file)
     time = 1e6 * data['time (s)']
-    upper = newAxes()
+    upper = axesOf(None)
     figure = upper.figure
     upper.remove()
     upper, lower = figure.subplots(2, 1, sharex=True)
@@ -186,6 +185,5 @@ def plotFracture(file: File, picture: File | None = None) -> tuple[Axes, Axes]:
     for ax in (upper, lower):
         ax.legend(loc='center left', bbox_to_anchor=(1, .5))
         ax.grid(True, linewidth=.3)
-    if picture is not None:
-        savePicture(figure, picture, dpi=150)
+    savePicture(figure, picture, dpi=150)
     return upper, lower

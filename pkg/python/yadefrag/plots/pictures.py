@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy
 
+from yade.wrapper import Omega
 from yadefrag.arguments import ArrayLike, FESolver, File, flag, number, numbersOf, path, refuse, whole
 from yadefrag.fe.contents import betweenSteps, requireNoStep, requireSolver, shownMesh
 from yadefrag.fe.fields import FIELDS, fieldValues, nameOf
 from yadefrag.files import replacing, requireWritable, savePicture
-from yadefrag.plots.axes import (MOST_PANELS, CrackLines, YadeBodies, barSettings, damageBar, fragmentColours,
-                                 newPanels, palette, panelSize, requireAxes)
+from yadefrag.plots.axes import (MOST_PANELS, CrackLines, YadeBodies, axesOf, barSettings, damageBar, fragmentColours,
+                                 newPanels, palette, panelSize)
+from yadefrag.scene.lifecycle import runPart
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,7 +64,7 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
         pictures = [_Picture(fe, one, scale=scale) for one in chosen]
         others = YadeBodies(*asked)
     if ax is not None:
-        panels = [requireAxes(ax)]
+        panels = [axesOf(ax)]
     else:
         panels = newPanels(len(chosen), *_extent(pictures[0], others, window))
     lines = []
@@ -72,9 +74,8 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
             one.set_title('fragment')
         one.set(**{name: ends for name, ends in zip(('xlim', 'ylim'), window) if ends})
     damageBar(panels, lines)
-    if file is not None:
-        # Nothing is cut off, and no margin remains beside axes of a fixed ratio.
-        savePicture(panels[0].figure, file, 150, **({} if ax is not None else dict(bbox_inches='tight')))
+    # Nothing is cut off, and no margin remains beside axes of a fixed ratio.
+    savePicture(panels[0].figure, file, 150, **({} if ax is not None else dict(bbox_inches='tight')))
     return panels[0] if fields is None else panels
 
 
@@ -127,7 +128,7 @@ class _Picture:
         values: Any
         perNode: bool | None
         with betweenSteps(fe):
-            self.isOfFragments = isinstance(field, str) and field == 'fragment'
+            self.isOfFragments: bool = isinstance(field, str) and field == 'fragment'
             if self.isOfFragments:
                 self.colours = fragmentColours(fe, former)
                 values, perNode = self.colours % 20, False
@@ -283,17 +284,9 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
 
 def _runInParts(steps, every):
     """Runs YADE's scene in parts; yields its step number before the first part and after each."""
-    from yade.wrapper import Omega
-
-    from yadefrag.scene.lifecycle import runPart
-
-    scene = Omega()
+    scene, done, isPaused = Omega(), 0, False
     yield scene.iter
-    done = 0
-    while done < steps:
-        part = min(every, steps - done)
-        part, isPaused = runPart(part)
+    while done < steps and not isPaused:
+        part, isPaused = runPart(min(every, steps - done))
         done += part
         yield scene.iter
-        if isPaused:
-            return

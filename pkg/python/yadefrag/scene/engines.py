@@ -51,7 +51,9 @@ def engines(fe: FESolver, gravity: ArrayLike | None = None, spheres: bool = Fals
     if not isinstance(loop, wrapper.InteractionLoop):
         loop = _classOf('loop', loop, wrapper.CurveLoop, wrapper.InteractionLoop)
     damping = number('damping', damping, lambda v: math.isfinite(v) and v >= 0, '0 or positive')
-    pull = tuple(fe.gravity) if gravity is None else _inPlane(gravity)
+    pull = tuple(fe.gravity) if gravity is None else numbersOf(gravity, 2) or numbersOf(gravity, 3)
+    if pull is None:
+        refuse('gravity', gravity, 'a pair of numbers (m/s²), or None')
     if not (spheres or moving):
         if any(pull) or gravity is not None:
             fe.gravity = pull
@@ -76,13 +78,6 @@ def _classOf(name, given, usual, base):
     if not isinstance(given, type) or not issubclass(given, base):
         refuse(name, given, 'None, or a class derived from %s' % base.__name__)
     return given
-
-
-def _inPlane(gravity):
-    found = numbersOf(gravity, 2) or numbersOf(gravity, 3)
-    if found is None:
-        refuse('gravity', gravity, 'a pair of numbers (m/s²), or None')
-    return found
 
 
 def dumpBounds(self: wrapper.Collider) -> tuple[list[tuple], ...]:
@@ -120,26 +115,21 @@ def _sortedEnds(ids, ends, span):
     return list(zip(*columns))
 
 
-def _findingOurs(typedEngine, names):
-    """utils.typedEngine of YADE's class in a scene with a class of `names` (of YADE's: ours) instead."""
-    @functools.wraps(typedEngine)
+def installColliders(colliders: Collection[str]) -> None:
+    """dumpBounds of our colliders; utils.typedEngine of YADE's class finds ours in a scene that has none of YADE's."""
+    for name in colliders:
+        getattr(wrapper, name).dumpBounds = dumpBounds
+    ours = {'InsertionSortCollider': colliders, 'InteractionLoop': ['CurveLoop'],
+            'NewtonIntegrator': ['CurveIntegrator']}
+    former = utils.typedEngine
+
+    @functools.wraps(former)
     def found(name):
         engines = wrapper.Omega().engines
-        if all(type(one).__name__ != name for one in engines):
-            for one in engines:
-                if type(one).__name__ in names.get(name, ()):
-                    return one
-        return typedEngine(name)
-    return found
+        classes = [type(one).__name__ for one in engines]
+        instead = () if name in classes else ours.get(name, ())
+        return next((one for one, its in zip(engines, classes) if its in instead), None) or former(name)
 
-
-def installColliders(names: Collection[str]) -> None:
-    """`names`: those of the colliders."""
-    for name in names:
-        getattr(wrapper, name).dumpBounds = dumpBounds
-    former = utils.typedEngine
-    found = _findingOurs(former, {'InsertionSortCollider': names, 'InteractionLoop': ['CurveLoop'],
-                                'NewtonIntegrator': ['CurveIntegrator']})
     # YADE has copied its functions to the names of scripts, and to yade.mpy, which finds its collider by it.
     for holder in utils, builtins, sys.modules['__main__'], sys.modules.get('yade.mpy'):
         if getattr(holder, 'typedEngine', None) is former:

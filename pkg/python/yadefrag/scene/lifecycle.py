@@ -299,7 +299,8 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
             if isPaused:
                 break
             # Portions of about a tenth of a second: the bar moves between them.
-            portion = _portion(now, time.perf_counter() - start)
+            seconds = max(time.perf_counter() - start, 1e-9)
+            portion = max(1, min(2 * now, int(.1 * now / seconds)))
     except KeyboardInterrupt:
         bar.close()
         print('Stopped after %d of %d steps, at %.6g s.' %
@@ -336,10 +337,6 @@ def runPart(steps: int) -> tuple[int, bool]:
         why = _yadefrag.whyStopped()
         raise RuntimeError('The run stopped in step %d%s' % (omega.iter, ': ' + why if why else '.'))
     return done, True
-
-
-def _portion(steps, seconds):
-    return max(1, min(2 * steps, int(.1 * steps / max(seconds, 1e-9))))
 
 
 class _Bar:

@@ -9,7 +9,7 @@ import numpy
 from yadefrag.arguments import File, isWhole, plain, refuse, shown, text, whole
 from yadefrag.messages import passOn
 from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
-from yadefrag.studies.runs import Finished, counted, jobOf, requireExecutor, runAll
+from yadefrag.studies.runs import Finished, counted, jobOf, runAll
 from yadefrag.studies.scene_choices import Choices
 from yadefrag.studies.tradeoff_grid import checkChoice, requireFiles, writeTable
 
@@ -51,9 +51,8 @@ def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., 
     ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
     RuntimeError if the file cannot be loaded again.
     """
-    job = dict(jobOf('ensemble', scene, measure, watch, duration, every, limit), isSeveral=True)
+    job = dict(jobOf('ensemble', scene, measure, watch, duration, every, limit, executor), isSeveral=True)
     settings = _settings(runs)
-    executor = requireExecutor(executor)
     workers = whole('workers', os.cpu_count() if workers is None else workers)
     table = EnsembleTable([EnsembleRow(dict(setting)) for setting in settings], text('title', title))
     requireFiles(table, files)
@@ -96,12 +95,8 @@ def _listOf(values):
 
 def _run(rows, job, finished, executor, workers):
     """Runs all rows and stores their results."""
+    # The same row may occur several times.
+    keys = [dict(setting=row.settings, turn=sum(row.settings == other.settings for other in rows[:place]))
+            for place, row in enumerate(rows)]
     with counted(len(rows), lambda: sum(row.result != 'not run' for row in rows)) as bar:
-        keys = [_keyOf(rows, place) for place in range(len(rows))]
         runAll(list(zip(rows, keys)), job, finished, bar, executor, workers)
-
-
-def _keyOf(rows, place):
-    """Key of a run in the file of finished runs; the same row may occur several times."""
-    settings = rows[place].settings
-    return dict(setting=settings, turn=sum(row.settings == settings for row in rows[:place]))

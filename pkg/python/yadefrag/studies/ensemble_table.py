@@ -13,7 +13,7 @@ import numpy
 from yadefrag.arguments import ArrayLike, File, array, number, path, refuse, text
 from yadefrag.files import savePicture
 from yadefrag.messages import needed
-from yadefrag.plots.axes import DISTINCT
+from yadefrag.plots.axes import DISTINCT, axesOf
 from yadefrag.studies.tradeoff_table import describe, grouped, samples, varying, writeRows
 
 if TYPE_CHECKING:
@@ -183,15 +183,12 @@ class EnsembleTable:
                with its band
         label  of the axis of the measured value
         """
-        from yadefrag.plots.axes import newAxes, requireAxes
-        label = text('label', label)
-        ax = newAxes() if ax is None else requireAxes(ax)
+        label, ax = text('label', label), axesOf(ax)
         (self._plotShares if by is None else self._plotBy)(ax, by, confidence, label)
         ax.set_title(self.title)
         ax.grid(True, linewidth=.3)
         ax.legend()
-        if file is not None:
-            savePicture(ax.figure, file, dpi=150)
+        savePicture(ax.figure, file, dpi=150)
         return ax
 
     def _plotShares(self, ax, _, confidence, label):
@@ -294,13 +291,9 @@ def _meanOf(table, confidence):
     if count == 1:
         return mean, numpy.full_like(mean, numpy.nan), numpy.full_like(mean, numpy.nan)
     deviation = table.std(axis=0, ddof=1)
-    return mean, deviation, _student(confidence, count - 1) * deviation / math.sqrt(count)
-
-
-def _student(confidence, freedom):
-    """The t for which a value of Student's distribution is from -t to t with that probability."""
     statistics = needed('scipy.stats', 'python3-scipy', 'confidence bands work')
-    return statistics.t.ppf((1 + confidence) / 2, freedom)
+    most = statistics.t.ppf((1 + confidence) / 2, count - 1)  # values are from -most to most with that probability
+    return mean, deviation, most * deviation / math.sqrt(count)
 
 
 def _places(runs):

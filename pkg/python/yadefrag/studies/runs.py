@@ -27,12 +27,15 @@ _BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
 
 
 def jobOf(name: str, scene: Callable, measure: Callable, watch: Callable | None, duration: float, every: float,
-          limit: float) -> dict[str, Any]:
-    """The job of every run: functions and their file, times. ValueError for functions without a file; RuntimeError in a
-    run that loads the script, which calls the function `name`, again."""
+          limit: float, executor: Any) -> dict[str, Any]:
+    """The job of every run: functions and their file, times. ValueError for functions without a file, and for an
+    executor without a method submit; RuntimeError in a run that loads the script, which calls the function `name`,
+    again."""
     if os.environ.get(INSIDE):
         raise RuntimeError('%s is called while one of its runs loads the script; put the call '
                            "after `if __name__ == '__main__':`." % name)
+    if executor is not None and not callable(getattr(executor, 'submit', None)):
+        refuse('executor', executor, 'None, or an executor with a method submit')
     functions: list[Any] = [scene, measure] + [watch] * (watch is not None)
     for argument, function in zip(('scene', 'measure', 'watch'), functions):
         module = sys.modules.get(getattr(function, '__module__', ''))
@@ -56,13 +59,6 @@ def jobOf(name: str, scene: Callable, measure: Callable, watch: Callable | None,
                 program=os.path.join(_HERE, 'run_in_yade.py'), duration=positive('duration', duration, 's'),
                 every=number('every', every, lambda v: 0 <= v < math.inf, 'a positive number (s), or 0'),
                 limit=min(positive('limit', limit, 's'), _MOST_SECONDS))
-
-
-def requireExecutor(executor: Any) -> Any:
-    """`executor`; ValueError if it has no method submit."""
-    if executor is not None and not callable(getattr(executor, 'submit', None)):
-        refuse('executor', executor, 'None, or an executor with a method submit')
-    return executor
 
 
 @contextlib.contextmanager

@@ -20,7 +20,7 @@ from yadefrag.arguments import ArrayLike, File, path, plain, refuse, shown, show
 from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
-from yadefrag.studies.runs import Finished, counted, jobOf, requireExecutor, runAll
+from yadefrag.studies.runs import Finished, counted, jobOf, runAll
 from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases
 
 _REPEATABLE = ('not run', 'ok')
@@ -73,9 +73,8 @@ def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | 
     runs, for bad arguments, OSError for files that cannot be written; RuntimeError if the file
     cannot be loaded again.
     """
-    job = jobOf('tradeoff', scene, measure, watch, duration, every, limit)
+    job = jobOf('tradeoff', scene, measure, watch, duration, every, limit, executor)
     settings, repeats = _grid(vary), whole('repeats', repeats)
-    executor = requireExecutor(executor)
     title, by = text('title', title), namesOfCases(by)
     right = _reference(reference)
     if isinstance(right, dict):

@@ -12,7 +12,7 @@ from matplotlib.transforms import Bbox
 from yadefrag.arguments import File
 
 from yadefrag.files import savePicture
-from yadefrag.plots.axes import newAxes, requireAxes
+from yadefrag.plots.axes import axesOf
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,12 +34,9 @@ def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, la
     shown: list[Any] = [row for row in table.rows if row.error is not None and not table.isReference(row)]
     if not shown:
         raise ValueError('no row of the table has an error to show.')
-    if ax is not None:
-        requireAxes(ax)
-    else:
-        ax = newAxes()
-        lines = max(len(table.rows), 12)
-        ax.figure.set_size_inches(11, max(4.8, .235 * lines + 1.2))
+    isNew, ax = ax is None, axesOf(ax)
+    if isNew:
+        ax.figure.set_size_inches(11, max(4.8, .235 * max(len(table.rows), 12) + 1.2))
     # An error of 0 cannot be shown on a logarithmic axis: it is drawn at a tenth of the smallest
     # other one.
     floor = min((row.error for row in shown if row.error > 0), default=1e-16) / 10
@@ -66,8 +63,7 @@ def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, la
                isNeeded=True)
     else:
         _marks(ax, [(at[id(row)], table.label(row), row in front) for row in shown], isNeeded=False)
-    if file is not None:
-        savePicture(ax.figure, file, dpi=110)
+    savePicture(ax.figure, file, dpi=110)
     return ax
 
 
@@ -78,7 +74,8 @@ def _marks(ax, points, isNeeded):
     """
     ax.figure.canvas.draw()
     bounds = ax.get_window_extent()
-    taken = [_box(ax.transData.transform(at), 4) for at, _, _ in points]
+    places = [ax.transData.transform(at) for at, _, _ in points]
+    taken = [Bbox([place - 4, place + 4]) for place in places]
     for at, text, isBold in points:
         mark = ax.annotate(text, at, (0, 0), textcoords='offset points', fontsize=8,
                            weight='bold' if isBold else 'normal',
@@ -97,10 +94,6 @@ def _marks(ax, points, isNeeded):
                 mark.remove()
                 continue
         taken.append(box)
-
-
-def _box(place, half):
-    return Bbox([place - half, place + half])
 
 
 def _plainTicks(axis):

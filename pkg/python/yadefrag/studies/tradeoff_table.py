@@ -71,11 +71,8 @@ class TradeoffRow:
 
 def describe(settings: dict[str, Any]) -> str:
     """'passes=2, size=0.001'; 'as the scene is' for no choices."""
-    return ', '.join('%s=%s' % (n, _text(v)) for n, v in settings.items()) or 'as the scene is'
-
-
-def _text(value):
-    return '%.6g' % value if isinstance(value, float) else str(value)
+    return ', '.join('%s=%s' % (n, '%.6g' % v if isinstance(v, float) else v)
+                     for n, v in settings.items()) or 'as the scene is'
 
 
 class TradeoffTable:

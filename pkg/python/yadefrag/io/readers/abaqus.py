@@ -36,9 +36,6 @@ class Part:
     def addSet(self, kind: str, name: str, members: Iterable[tuple[Part, int]]) -> None:
         self.sets[kind].setdefault(name.upper(), (name, []))[1].extend(members)
 
-    def all(self, what: str) -> dict[int, Any]:
-        return getattr(self, what)
-
 
 class Instance(Part):
     """A moved copy of a part, which can have further nodes, elements and sets."""
@@ -48,8 +45,10 @@ class Instance(Part):
         self.part = part
         self.moves = []  # up to two rows: a translation; two points of an axis and an angle (degrees)
 
-    def all(self, what: str) -> dict[int, Any]:
-        return {**getattr(self.part, what), **getattr(self, what)}
+
+def _all(owner: Part, what: str) -> dict[int, Any]:
+    """The `nodes` or `elements` of a part, or of an instance with those of its part."""
+    return {**getattr(getattr(owner, 'part', owner), what), **getattr(owner, what)}
 
 
 def nodesOf(type: str) -> int:
@@ -65,11 +64,11 @@ def placed(instances: list[Instance], assembly: Part | None, leftOut: list[str])
     points, labels, corners, types = [], [], [], {}
     places = {'NSET': {}, 'ELSET': {}}  # {(instance, number in the file): number from 0}
     for one in instances:
-        nodes, where = one.all('nodes'), places['NSET']
+        nodes, where = _all(one, 'nodes'), places['NSET']
         points += _moved(list(nodes.values()), one.moves)
         for number in nodes:
             where[one, number] = len(where)
-        for number, (type, its) in one.all('elements').items():
+        for number, (type, its) in _all(one, 'elements').items():
             labels.append('%s.%d' % (one.name, number) if one.name else '%d' % number)
             its = its if nodesOf(type) else [node for node in its if (one, node) in where]
             for node in its:
@@ -292,7 +291,7 @@ class _Reader:
         members = []
         if kind == 'NSET' and 'ELSET' in options:
             elements = self._members(owner, 'ELSET', options['ELSET'])
-            members = [(one, node) for one, number in elements for node in one.all('elements')[number][1]]
+            members = [(one, node) for one, number in elements for node in _all(one, 'elements')[number][1]]
         for row in rows:
             row = [one for one in row if one]
             if 'GENERATE' in options:

@@ -6,7 +6,7 @@ Those of the model space that are shown, also from blocks, seen from above: z is
 import collections
 import importlib
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 import numpy
 
@@ -161,10 +161,6 @@ def _plane(points):
     return numpy.array([(p[0], p[1]) for p in points], dtype=float).reshape(-1, 2)
 
 
-def _line(entity, tolerance, name):
-    return [[entity.dxf.start, entity.dxf.end]]
-
-
 def _arc(entity, tolerance, name):
     tolerance = requireTolerance(tolerance, name, 'has curves')
     radius = abs(entity.dxf.radius)
@@ -218,5 +214,6 @@ def _polyline(entity, tolerance, name):
     return [list(entity.ocs().points_to_wcs([(x, y, height) for x, y in points.tolist()]))]
 
 
-_READERS = dict(LINE=_line, ARC=_arc, CIRCLE=_arc, ELLIPSE=_ellipse, SPLINE=_spline,
-                LWPOLYLINE=_polyline, POLYLINE=_polyline)
+_READERS: dict[str, Callable] = dict(
+    LINE=lambda entity, *_: [[entity.dxf.start, entity.dxf.end]], ARC=_arc, CIRCLE=_arc, ELLIPSE=_ellipse,
+    SPLINE=_spline, LWPOLYLINE=_polyline, POLYLINE=_polyline)

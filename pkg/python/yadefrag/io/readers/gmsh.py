@@ -76,7 +76,9 @@ def read(name: str) -> Elements:
         raise ValueError('it is divided in partitions, save it without them')
     names = _names(sections.get('PhysicalNames', b''))
     if version.startswith('2'):
-        points, tags = _nodes2(sections['Nodes'], order)
+        count, _, rest = sections['Nodes'].partition(b'\n')
+        tags, *xyz = _Numbers(rest, order).rows(('i4', 'f8', 'f8', 'f8'), int(count))
+        points, tags = numpy.stack(xyz, axis=1), tags.astype(numpy.int64)
         found = _elements2(sections['Elements'], order)
     elif version.startswith('4'):
         isOld = version == '4.0'
@@ -116,12 +118,6 @@ def _kind(type, label):
 
 
 # --- version 2: each element has its tags, the first one is its group
-
-def _nodes2(section, order):
-    count, _, rest = section.partition(b'\n')
-    tag, *xyz = _Numbers(rest, order).rows(('i4', 'f8', 'f8', 'f8'), int(count))
-    return numpy.stack(xyz, axis=1), tag.astype(numpy.int64)
-
 
 def _elements2(section, order):
     """[(kind, label, groups, tags of nodes)]; elements that differ by their group only are one."""

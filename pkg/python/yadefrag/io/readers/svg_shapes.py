@@ -173,15 +173,11 @@ def _subpaths(path, tolerance, name):
         elif end is not None:
             if not isOpen and len(found[-1]) > 1:  # after a closed part, which ends where it began
                 found.append([found[-1][0]])
-            found[-1].append(end if kind in ('Line', 'Close') or _isFlat(segment) else
-                             _curve(segment, requireTolerance(tolerance, name, 'has curves')))
+            # An arc without a radius is a line in SVG.
+            isLine = kind in ('Line', 'Close') or kind == 'Arc' and not (segment.rx and segment.ry)
+            found[-1].append(end if isLine else _curve(segment, requireTolerance(tolerance, name, 'has curves')))
         isOpen = kind != 'Close'
     return [numpy.concatenate(parts) for parts in found if len(parts) > 1]
-
-
-def _isFlat(segment):
-    """True for an arc without a radius, which is a line in SVG."""
-    return type(segment).__name__ == 'Arc' and not (segment.rx and segment.ry)
 
 
 def _curve(segment, tolerance):

@@ -1,4 +1,4 @@
-"""Outlines moved onto their neighbours: rounded coordinates make gaps and overlaps."""
+"""Outlines moved onto their neighbours, since rounded coordinates make gaps and overlaps; bonds with neighbours."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -7,9 +7,10 @@ import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import FESolver, Mesh, listOf, number, pointsOf, positive
+from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
 from yadefrag.fe.mesh import Meshing, Outline
 from yadefrag.fe.mesh_values import isClockwise
-from yadefrag.messages import warnOfOne
+from yadefrag.messages import warn, warnOfOne
 
 OVERLAP = .05    # of the size: overlaps up to this are removed without a request
 _REACH = 2       # tolerance of that, in overlaps: vertices may be farther apart than the outlines
@@ -45,7 +46,8 @@ def addSnapped(fe: FESolver, outline: Outline, snap: float | None, size: float, 
     bodies beside it as `snap` permits. `size` (m) is the length of the triangles' edges."""
     count = None
     if snap:
-        outline, *count = outline.snapped(fe, snap, size, matches=True)
+        outline, done = outline.snapped(fe, snap, size, matches=True)
+        count = done.moved, done.inserted, done.farthest
     try:
         body = add(outline)
     except Overlap as overlap:
@@ -58,14 +60,14 @@ def addSnapped(fe: FESolver, outline: Outline, snap: float | None, size: float, 
 
 
 def _withoutOverlap(fe, outline, size, overlap, add):
-    """(body, [moved, inserted, farthest]) of the outline moved off the bodies; where several of these
+    """(body, (moved, inserted, farthest)) of the outline moved off the bodies; where several of these
     meet with gaps, what is left of the overlap needs further moves."""
-    first, total, depth = overlap, [0, 0, 0.], overlap.depth
+    first, moved, inserted, farthest, depth = overlap, 0, 0, 0., overlap.depth
     for _ in range(_MOVES):
         try:
-            outline, *count = outline.snapped(fe, _REACH * depth, size, matches=False)
-            total = [max(total[0], count[0]), total[1] + count[1], total[2] + count[2]]
-            return add(outline), total
+            outline, done = outline.snapped(fe, _REACH * depth, size, matches=False)
+            moved, inserted, farthest = max(moved, done.moved), inserted + done.inserted, farthest + done.farthest
+            return add(outline), (moved, inserted, farthest)
         except Overlap as left:
             overlap, depth = left, left.depth
             if depth > OVERLAP * size:
@@ -75,7 +77,7 @@ def _withoutOverlap(fe, outline, size, overlap, add):
             break
     raise ValueError('%s Its vertices were moved by up to %.3g m, which does not suffice: %s '
                      'snapOutlines, for all outlines before they are added, moves both sides.' %
-                     (first, total[2], overlap)) from None
+                     (first, farthest, overlap)) from None
 
 
 def _advised(fe, outline, overlap, snap, size, displacement):
@@ -90,10 +92,10 @@ def _advised(fe, outline, overlap, snap, size, displacement):
 
 def _changes(fe, outline, tolerance, size):
     try:
-        _, moved, inserted, _ = outline.snapped(fe, tolerance, size, matches=False)
+        _, done = outline.snapped(fe, tolerance, size, matches=False)
     except ValueError:  # it would collapse
         return False
-    return moved + inserted > 0
+    return done.moved + done.inserted > 0
 
 
 def _tell(body, size, moved, inserted, farthest):
@@ -171,11 +173,11 @@ def snapOutlines(shapes: Iterable, tolerance: float) -> tuple[list, dict[str, An
     shapes = listOf('shapes', shapes, 'a list of outlines, or of pairs (outline, holes)')
     given = [_loopsOf('shapes[%d]' % i, shape) for i, shape in enumerate(shapes)]
     made = _yadefrag.snapTogether([(loops[0], loops[1:]) for loops in given], tolerance)
-    report = dict(moved=sum(one[1] for one in made), inserted=sum(one[2] for one in made),
-                  farthest=max((one[3] for one in made), default=0.))
+    report = dict(moved=sum(one.moved for one in made), inserted=sum(one.inserted for one in made),
+                  farthest=max((one.farthest for one in made), default=0.))
     found = []
-    for shape, before, (after, *_) in zip(shapes, given, made):
-        loops = [_turned(loop, was) for (loop, *_), was in zip(after, before)]
+    for shape, before, after in zip(shapes, given, made):
+        loops = [_turned(loop.points, was) for loop, was in zip(after.loops, before)]
         found.append((loops[0], loops[1:]) if _hasHoles(shape) else loops[0])
     return found, report
 
@@ -200,3 +202,86 @@ def _turned(loop, was):
     if isClockwise(loop) != isClockwise(was):
         loop = numpy.concatenate([loop[:1], loop[:0:-1]])
     return list(map(tuple, loop.tolist()))
+
+
+# --- bonds
+
+def _tellings(done):
+    """Sentences about corners of outlines that a bond has moved, and about its mesh."""
+    if done.corners:
+        yield ('%s moved by up to %.3g m onto a corner of the other body, since a side between them would have been '
+               'less than 0.2 of an element.' % ('a corner of an outline was' if done.corners == 1 else
+                                                 '%d corners of outlines were' % done.corners, done.farthest))
+    if done.problem:
+        yield done.problem
+
+
+def _requireNear(self, tolerance):
+    """The arguments of bondAll are three numbers, and may be given in another order."""
+    nodes = self.nodes
+    if not len(nodes):
+        return
+    largest = max(float(numpy.ptp(nodes[self.triangles[self.components == body]].reshape(-1, 2), axis=0).max())
+                  for body in set(self.components))
+    if tolerance > largest:
+        raise ValueError('bondAll: tolerance is %g m, but the largest body has only %g m; the order is '
+                         'bondAll(tolerance, strength, energy).' % (tolerance, largest))
+
+
+def bond(self: FESolver, a: int | str, b: int | str, strength: float, energy: float) -> int:
+    """Bonds bodies a and b, from the next step on, along all sides that they have in common at
+    present; returns the number of these sides (int).
+
+    a, b      numbers or names of two bodies that touch
+    strength  Pa, tensile; the shear strength is shearFactor times that. shearFactor,
+              shearEnergyFactor and softening are those of the body with the smaller
+              tensileStrength; 1, 1 and 'linear' for FEMat
+    energy    J/m², that opens the bond in tension; positive
+    A bond acts like a crack that has not opened yet, by the cohesive law. An opening dissipates
+    `energy`; after that, or where the bond is closed, the faces have contact like any others.
+    fragments() counts bonded bodies as one; crackCounts counts bonds, numCracks does not. Where the
+    nodes of both sides differ, they are made the same first: a node slides along its side by up to a
+    third of it onto a node of the other body, and each other node divides the side opposite it and the
+    triangle behind that side. New nodes have the last numbers; triangles of later bodies get higher ones. The
+    critical time step may be shorter then: set O.dt after the bonds. Corners nearer than 0.2 of a side
+    are joined, with a warning. ValueError, before any change, if no sides lie on each other, or if
+    their ends cannot be joined; a warning if sides are too long for the energy.
+    """
+    requireBetweenSteps()
+    first, second = (bodyNumber(self, one, name, least=0) for name, one in (('a', a), ('b', b)))
+    done = self._bond(first, second, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    for sentence in _tellings(done):
+        warnOfOne('bond: ' + sentence, 'bonds', '%d-%d' % (first, second))
+    return done.sides
+
+
+def bondAll(self: FESolver, tolerance: float, strength: float, energy: float) -> int:
+    """Bonds all bodies, from the next step on, along all sides that lie on each other at present, as
+    `bond` does; returns the number of bonded sides (int).
+
+    tolerance  m: sides up to this distance apart that run along each other are neighbours. Gaps and
+               overlaps up to it are closed, without stress, where their nodes are made the same
+    strength   Pa, as in bond
+    energy     J/m², as in bond
+    Sides whose nodes cannot be made the same are not bonded; a warning states their number, two
+    bodies and a place. ValueError, before any change, if no sides lie on each other.
+    """
+    requireBetweenSteps()
+    tolerance = positive('tolerance', tolerance, 'm')
+    _requireNear(self, tolerance)
+    done = self._bondAll(tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    if not done.sides and not done.unmatched:
+        raise ValueError('bondAll: no sides that are not bonded yet are within %g m of another body; '
+                         'bodies to be bonded must touch.' % tolerance)
+    sentences = list(_tellings(done))
+    if done.unmatched:
+        sentences.insert(0, (
+            '%d sides within %g m of another body are not bonded, since its sides there have other ends, as '
+            'between the bodies %d and %d at (%g, %g) m, which cannot be moved onto each other: they are too '
+            'near each other, or nodes of other bonds. A larger tolerance, or snapOutlines before the bodies '
+            'are added, may help.' % (done.unmatched, tolerance, *done.bodies, *done.place)))
+    if not done.sides:
+        raise ValueError('bondAll: ' + ' '.join(sentences))
+    if sentences:
+        warn('bondAll: ' + ' '.join(sentences))
+    return done.sides

@@ -1,17 +1,21 @@
-"""Setting attributes of the new classes from scripts: numbers of NumPy are accepted, and a value of a
-wrong type is refused with one sentence; also for attributes of YADE's base classes.
+"""What scripts must not do, each refused with one sentence: attributes of the new classes, also those of YADE's base
+classes, with values of a wrong type (numbers of NumPy are accepted); operations on single pieces of FESolver's bodies.
 """
 
 import difflib
 import functools
+import numbers
 import warnings
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy
 
 from yade import wrapper
 from yade.minieigenHP import Vector3
-from yadefrag.arguments import isWhole, numbersOf, plain, refuse, shown
+from yadefrag.arguments import flag, isWhole, numbersOf, plain, refuse, shown
+from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
+from yadefrag.messages import inWords
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
@@ -23,7 +27,7 @@ _RIGHT = {'contactTolerance': "'fine', 'default', 'coarse' or a number",
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 
 
-def install(cls: Any) -> None:
+def guardAttributes(cls: Any) -> None:
     """Checks every way to set attributes of `cls`: assignment, the constructor and updateAttrs."""
     cls.__setattr__ = __setattr__
     cls.__init__ = _guardConstructor(cls.__init__)
@@ -71,7 +75,10 @@ def _guardConstructor(make):
     @functools.wraps(make)
     def __init__(self, *args, **settings):
         if args and isinstance(self, wrapper.Collider):
-            _requireFunctors(args[0])
+            # YADE would end the process for a functor that is None.
+            if not isinstance(args[0], (list, tuple)) \
+                    or not all(isinstance(one, wrapper.BoundFunctor) for one in args[0]):
+                refuse('the first argument', args[0], 'a list of bound functors')
         elif args and isinstance(self, (wrapper.Material, wrapper.FESolver)):
             kind = type(self).__name__
             raise TypeError('%s takes no arguments by position: write the names of its attributes, as %s(%s=...).' %
@@ -97,8 +104,11 @@ def updateAttrs(self: Any, attributes: dict[str, Any]) -> None:
         change(self, {name: _fitting(known.get(name), value) for name, value in attributes.items()})
     except Exception as error:
         change(self, before)
-        if isinstance(error, _WRONG_KIND):
-            _findWrong(type(self)(), attributes)
+        if isinstance(error, _WRONG_KIND):  # TypeError for the first that is invalid for an object of this class
+            scratch = type(self)()
+            for name in attributes:
+                if name in known:
+                    setattr(scratch, name, attributes[name])
         raise
 
 
@@ -108,21 +118,6 @@ def _findMisspelt(self, known, attributes):
         near = difflib.get_close_matches(str(name), known, 1)
         if near and not hasattr(self, str(name)):
             raise AttributeError('%s has no attribute %s, but %s.' % (type(self).__name__, shown(name), near[0]))
-
-
-def _findWrong(scratch, settings):
-    """Raises TypeError for the first of the settings that is invalid for an object of this class."""
-    known = scratch.dict()
-    for name, value in settings.items():
-        if name in known:
-            setattr(scratch, name, value)
-
-
-def _requireFunctors(functors):
-    """YADE would end the process for a functor that is None."""
-    if not isinstance(functors, (list, tuple)) \
-            or not all(isinstance(one, wrapper.BoundFunctor) for one in functors):
-        refuse('the first argument', functors, 'a list of bound functors')
 
 
 def _fitting(present, value):
@@ -149,3 +144,102 @@ def _right(present, wrong):
         return 'closer to 0' if isWhole(wrong) else 'a whole number'
     rest = ((float, 'a number'), (str, 'a text'), (Vector3, 'three numbers'))
     return next((right for kind, right in rest if isinstance(present, kind)), 'of another class')
+
+# --- bodies
+
+def _pieceOf(body):
+    """The shape of a body that is part of a boundary; None for any other."""
+    shape = body.shape if body else None
+    return shape if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0 else None
+
+
+def _refuse(id, piece, words):
+    raise ValueError('body #%d is part of the boundary of body %d of FESolver%s.' %
+                     (id, piece.component, words.replace('{}', '%d' % piece.component)))
+
+
+def _guard(name: str, idsOf: Callable[..., Iterable], words: str = ', it cannot be in a clump') -> None:
+    """A method of O.bodies that refuses pieces of a boundary: YADE would end the process, or the boundary would have
+    a hole.
+
+    idsOf  function of the method's arguments → numbers of bodies
+    """
+    method = getattr(wrapper.BodyContainer, name)
+
+    @functools.wraps(method)
+    def guarded(self, *arguments, **settings):
+        arguments = [list(one) if hasattr(one, '__iter__') else one for one in arguments]  # any sequence, once
+        for id in idsOf(*arguments, **settings):
+            isPlace = isinstance(id, numbers.Integral) and 0 <= int(id) < len(self)
+            piece = _pieceOf(self[int(id)]) if isPlace else None
+            if piece:
+                _refuse(id, piece, words)
+        return method(self, *arguments, **settings)
+    setattr(wrapper.BodyContainer, name, guarded)
+
+
+def _guardPart(name):
+    """Body.state or Body.shape of a piece must not be replaced: other engines would end the process."""
+    part = getattr(wrapper.Body, name)
+
+    def guarded(self, value):
+        piece = _pieceOf(self)
+        if piece:
+            _refuse(self.id, piece, ': a script must not replace its %s' % name)
+        part.fset(self, value)
+    setattr(wrapper.Body, name, property(part.fget, guarded, doc=part.__doc__))
+
+
+def guardBodies() -> None:
+    _guard('erase', lambda id, *_, **__: [id], ', it cannot be erased alone; FESolver.removeBody({}) removes the whole '
+           'body')
+    _guard('insertAtId', lambda body, id: [id], ', another one cannot replace it')
+    for name in ('clump', 'addToClump'):
+        _guard(name, lambda ids, *_, **__: ids if isinstance(ids, list) else ())  # no list: YADE raises the exception
+    for name in ('deleteClumpMember', 'deleteClumpBody'):
+        _guard(name, lambda *bodies: [one.id for one in bodies if isinstance(one, wrapper.Body)])
+    for name in ('state', 'shape'):
+        _guardPart(name)
+
+
+# --- FESolver
+
+def _guardCopy(reduce):
+    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none of them."""
+    def guarded(self, protocol):
+        if len(self.masses) > 0:
+            raise TypeError('an FESolver with bodies cannot be copied or pickled, since its '
+                            'bodies belong to the scene; O.save keeps them, or create a new one.')
+        return reduce(self, protocol)
+
+    return guarded
+
+
+def guardSolver() -> None:
+    """Sentences for wrong arguments of methods that are written in C++."""
+    solver = wrapper.FESolver
+    remove, fragments, overlap, critical = solver.removeBody, solver.fragments, solver.deepestOverlap, \
+        solver.criticalTimeStep
+
+    @functools.wraps(remove)
+    def removeBody(self, component):
+        requireBetweenSteps()
+        return remove(self, bodyNumber(self, component))
+
+    @functools.wraps(fragments)
+    def guardedFragments(self, held=True):
+        return fragments(self, flag('held', held))
+
+    @functools.wraps(overlap)
+    def deepestOverlap(self):
+        return overlap(self)
+
+    @functools.wraps(critical)
+    def criticalTimeStep(self):
+        return critical(self)
+
+    guardedFragments.__qualname__ = 'FESolver.fragments'
+    methods: tuple[Any, ...] = removeBody, guardedFragments, deepestOverlap, criticalTimeStep
+    for method in methods:
+        setattr(solver, method.__name__, inWords(method))
+    solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)
