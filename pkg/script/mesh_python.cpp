@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "dynamics/mesh_step.hpp"
+#include "dynamics/critical_time_step.hpp"
 #include "meshing/structured.hpp"
 #include "meshing/triangle_quality.hpp"
 #include "outline/polygon.hpp"

@@ -1,5 +1,4 @@
 #include "outline/polygon.hpp"
-#include "outline/polygon_text.hpp"
 #include "rigid/rigid_section.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
