@@ -18,8 +18,8 @@ using Kind = YieldConstants::Kind;
 /// Copies values of elements to lanes and back; lanes after the last element repeat its value.
 class Group {
  public:
-  [[gnu::always_inline]] Group(const Chunk& chunk, std::uint32_t lane)
-      : first(chunk.firstElement + static_cast<std::uint32_t>(kLanes) * (lane - chunk.firstLanes)),
+  [[gnu::always_inline]] Group(const Chunk& chunk, std::size_t lane)
+      : first(static_cast<std::uint32_t>(chunk.firstElement + kLanes * (lane - chunk.firstLanes))),
         count(std::min<std::uint32_t>(kLanes, chunk.lastElement - first)) {}
 
   [[gnu::always_inline]] void load(const double* values, double* lanes) const {
