@@ -30,6 +30,12 @@ struct ConeFlow {
   double gone;     ///< part of the deviator that flow takes away
 };
 
+/// exp x; `kTiny`: for |x| < tolerance::kTinyFlow.
+template <bool kTiny>
+[[gnu::always_inline]] inline double expOfAny(double x) {
+  return kTiny ? expOfTiny(x) : expOfSmall(x);
+}
+
 /// (1 − e⁻ˣ)/x; `kTiny`: for x < 2 · tolerance::kTinyFlow.
 template <bool kTiny>
 [[gnu::always_inline]] inline double fallFactor(double x) {

@@ -13,7 +13,7 @@ namespace {
 /// Replaces the corners' coordinates by their forces. `laws`: laws of the lanes, if `kMixed`.
 template <bool kWatched, bool kMixed>
 [[gnu::always_inline]] inline Findings elasticForces(const ElementLanes& e, const Chunk& chunk,
-                                                     const ElementLaws* laws, Corners& c) {
+                                                     const ElementLaws* laws, Corners<kLanes>& c) {
   const double chunkLame = chunk.lame;
   const double chunkShear = chunk.shear;
   const StressLimit limit(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
@@ -27,9 +27,7 @@ template <bool kWatched, bool kMixed>
     const double i12 = e.inverseEdges[1][k];
     const double i21 = e.inverseEdges[2][k];
     const double i22 = e.inverseEdges[3][k];
-    const Matrix2 f = deformationGradient(c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k],
-                                          c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
-                                          i11, i12, i21, i22);
+    const Matrix2 f = c.gradient(e.inverseEdges, k);
     flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // also for NaN
     if constexpr (kWatched) stressed += isStressed(f, lame, shear, limit) ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
@@ -38,12 +36,7 @@ template <bool kWatched, bool kMixed>
     const double f1y = -v * (p.yx * i11 + p.yy * i12);
     const double f2x = -v * (p.xx * i21 + p.xy * i22);
     const double f2y = -v * (p.yx * i21 + p.yy * i22);
-    c.x[0][k] = -(f1x + f2x);
-    c.y[0][k] = -(f1y + f2y);
-    c.x[1][k] = f1x;
-    c.y[1][k] = f1y;
-    c.x[2][k] = f2x;
-    c.y[2][k] = f2y;
+    c.setForces(k, f1x, f1y, f2x, f2y);
   }
   return {flat, stressed};
 }
@@ -58,7 +51,8 @@ struct AddForces {
   StressedLanes& stressed;
 
   [[gnu::always_inline]] bool operator()() const {
-    const auto add = [this](std::uint32_t l, Corners & corners) __attribute__((always_inline)) {
+    const auto add = [this](std::uint32_t l, Corners<kLanes> & corners)
+        __attribute__((always_inline)) {
       const ElementLaws* own = kMixed ? laws + (l - chunk.firstLanes) : nullptr;
       const Findings found = elasticForces<kWatched, kMixed>(lanes[l], chunk, own, corners);
       scatter(lanes[l], corners, force);
@@ -80,15 +74,11 @@ bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes
 }  // namespace
 
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const ElementLaws* laws, const Vec2* position, Vec2* force) {
-  StressedLanes none;
-  return addForces<false>(set, chunk, lanes, laws, position, force, none);
-}
-
-bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const ElementLaws* laws, const Vec2* position, Vec2* force,
                       std::vector<ElementRange>& stressed) {
   StressedLanes found;
+  if (!std::isfinite(chunk.squaredStressLimit))
+    return addForces<false>(set, chunk, lanes, laws, position, force, found);
   const bool good = addForces<true>(set, chunk, lanes, laws, position, force, found);
   found.appendTo(stressed, chunk);
   return good;

@@ -12,13 +12,9 @@
 namespace yadefrag {
 
 /// Adds the elastic forces (N) of a chunk to `force`; positions and forces by local node number.
-/// `laws`: laws of the chunk, if it is mixed. Returns false if an element is flat (`kFlat`),
-/// inverted or not finite.
-bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const ElementLaws* laws, const Vec2* position, Vec2* force);
-
-/// The same, with the same bits. It also appends, in ascending order, the ranges of up to kLanes
-/// elements of which at least one is stressed (`Chunk::squaredStressLimit`).
+/// `laws`: laws of the chunk, if it is mixed. Appends to `stressed`, in ascending order, the ranges
+/// of up to kLanes elements of which at least one is stressed (`Chunk::squaredStressLimit`).
+/// Returns false if an element is flat (`kFlat`), inverted or not finite.
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const ElementLaws* laws, const Vec2* position, Vec2* force,
                       std::vector<ElementRange>& stressed);

@@ -21,6 +21,11 @@ class Moduli {
   double lame, shear;
 };
 
+/// (m³) Of the stress-free shape.
+inline double volumeOf(const Model& model, ElementId element) {
+  return model.triangles.area[element.value] * model.bodyOf(element).thickness;
+}
+
 /// The deformation gradient F at the present positions.
 Matrix2 deformationGradient(const Model& model, ElementId element);
 

@@ -10,34 +10,60 @@
 #include "core/instruction_set.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/vec2.hpp"
+#include "dynamics/elastic_law.hpp"
 #include "dynamics/element_chunks.hpp"
 #include "dynamics/element_kernel.hpp"
 
 namespace yadefrag {
 
-/// Coordinates, then forces, of the corners of kLanes elements.
+/// Coordinates, then forces, of the corners of W elements.
+template <std::size_t W>
 struct alignas(64) Corners {
-  double x[3][kLanes];
-  double y[3][kLanes];
+  double x[3][W];
+  double y[3][W];
+
+  /// F from the edges and D⁻¹ by rows.
+  [[nodiscard, gnu::always_inline]] Matrix2 gradient(const double (&inverse)[4][W],
+                                                     std::size_t k) const {
+    return deformationGradient(x[1][k] - x[0][k], y[1][k] - y[0][k], x[2][k] - x[0][k],
+                               y[2][k] - y[0][k], inverse[0][k], inverse[1][k], inverse[2][k],
+                               inverse[3][k]);
+  }
+  [[nodiscard, gnu::always_inline]] double twiceArea(std::size_t k) const {
+    return (x[1][k] - x[0][k]) * (y[2][k] - y[0][k]) - (y[1][k] - y[0][k]) * (x[2][k] - x[0][k]);
+  }
+  /// The forces on the second and the third corner, and the opposite one on the first.
+  [[gnu::always_inline]] void setForces(std::size_t k, double f1x, double f1y, double f2x,
+                                        double f2y) {
+    x[0][k] = -(f1x + f2x);
+    y[0][k] = -(f1y + f2y);
+    x[1][k] = f1x;
+    y[1][k] = f1y;
+    x[2][k] = f2x;
+    y[2][k] = f2y;
+  }
 };
 
+/// To kLanes elements of the corners, from the one `at` on.
+template <std::size_t W>
 [[gnu::always_inline]] inline void gather(const ElementLanes& lanes, const Vec2* values,
-                                          Corners& corners) {
+                                          Corners<W>& corners, std::size_t at = 0) {
   for (int i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < kLanes; ++k) {
       const Vec2 value = values[lanes.corner[i][k]];
-      corners.x[i][k] = value.x;
-      corners.y[i][k] = value.y;
+      corners.x[i][at + k] = value.x;
+      corners.y[i][at + k] = value.y;
     }
 }
 
-[[gnu::always_inline]] inline void scatter(const ElementLanes& lanes, const Corners& corners,
-                                           Vec2* force) {
+template <std::size_t W>
+[[gnu::always_inline]] inline void scatter(const ElementLanes& lanes, const Corners<W>& corners,
+                                           Vec2* force, std::size_t at = 0) {
   for (std::size_t k = 0; k < kLanes; ++k)
     for (int i = 0; i < 3; ++i) {
       Vec2& f = force[lanes.corner[i][k]];
-      f.x += corners.x[i][k];
-      f.y += corners.y[i][k];
+      f.x += corners.x[i][at + k];
+      f.y += corners.y[i][at + k];
     }
 }
 
@@ -74,7 +100,7 @@ template <bool kWatched, class Work>
                                                 const Vec2* position, StressedLanes& stressed,
                                                 const Work& work) {
   int flat = 0;
-  Corners corners;
+  Corners<kLanes> corners;
   for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
     gather(lanes[l], position, corners);
     const Findings found = work(l, corners);

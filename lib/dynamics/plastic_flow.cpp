@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "core/tolerances/plasticity.hpp"
-#include "dynamics/chunk_nodes.hpp"
 #include "dynamics/plastic_return.hpp"
 
 namespace yadefrag {
@@ -19,6 +16,19 @@ YieldPoint pointOf(const FormerLanes& former, std::uint32_t k) {
   point.thickness = former.thickness[k], point.strain = former.strain[k];
   point.temperature = former.temperature[k];
   return point;
+}
+
+/// Replaces a chunk's volumes by U'(J) (Pa); by local number.
+const double* toPressures(NodeSums<double>& volumes, const Model& model,
+                          const ElementChunks& elements, const Chunk& chunk) {
+  double* value = volumes.whole(elements, chunk);
+  const double halfBulk = SolidModuli(model.components[chunk.firstComponent].material).bulk / 2;
+  for (std::uint32_t i = 0; i < chunk.lastNode - chunk.firstNode; ++i) {
+    const double own = model.nodes.mass[elements.nodes[chunk.firstNode + i].value];
+    const double ratio = value[i] * chunk.density / own;
+    value[i] = own > 0 ? halfBulk * (ratio - 1 / ratio) : 0;
+  }
+  return value;
 }
 
 bool isSmoothed(const Chunk& chunk) {
@@ -68,17 +78,15 @@ void PlasticFlow::follow(const ElementChunks& elements, std::span<const std::uin
 void PlasticFlow::begin(const ElementChunks& elements, int threads, double dt) {
   if (!isOn()) return;
   if (threads_.size() < static_cast<std::size_t>(threads)) threads_.resize(threads);
-  for (Thread& one : threads_) one.former.clear(), one.squaredSteepest = 0;
+  for (FlowRoom& one : threads_) one.former.clear(), one.squaredSteepest = 0;
   restored_ = 0;
   damage_.begin(threads_.size());
   dissipated_.assign(elements.chunks.size(), 0);
   dt_ = dt;
 }
 
-PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
-  const Component& body = model.components[chunk.firstComponent];
+PlasticChunk PlasticFlow::inputOf(Model& model, const ElementChunks& elements, const Chunk& chunk) {
   PlasticState& state = model.triangles.plastic;
-  const YieldConstants constants(body);
   PlasticChunk in{.edges = {state.edges[0].data(), state.edges[1].data(), state.edges[2].data(),
                             state.edges[3].data()},
                   .thickness = state.thickness.data(),
@@ -86,36 +94,25 @@ PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
                   .temperature = state.temperature.data(),
                   .yield = yield_.data(),
                   .thermal = thermal_.data(),
-                  .cone = constants.cone,
-                  .moduli = constants.moduli,
-                  .planeStress = body.material.planeStress,
-                  .pressure = isSmoothed(chunk) ? now_.of(chunk) : nullptr,
-                  .formerPressure = nullptr,
-                  .opening = nullptr,
-                  .curve = {body.plastic, constants.moduli.shear, constants.heating, dt_}};
+                  .constants = YieldConstants(model.components[chunk.firstComponent]),
+                  .dt = dt_,
+                  .nodes = elements.nodes.data() + chunk.firstNode,
+                  .velocity = model.nodes.velocity.data(),
+                  .pressure = isSmoothed(chunk) ? now_.of(chunk) : nullptr};
   if (opensVolume(model, chunk))
     in.formerPressure = before_.of(chunk), in.opening = opening_.data();
   return in;
 }
 
-/// (m) By local number.
-const Vec2* PlasticFlow::formerPositions(const Model& model, const ElementChunks& elements,
-                                         const Chunk& chunk, const Vec2* position,
-                                         Thread& thread) const {
-  std::vector<Vec2>& before = thread.before;
-  before.resize(chunk.lastNode - chunk.firstNode);
-  fetchNodes(elements, chunk, model.nodes.velocity, before.data());
-  for (std::size_t i = 0; i < before.size(); ++i) before[i] = position[i] - dt_ * before[i];
-  return before.data();
-}
-
 void PlasticFlow::sum(InstructionSet set, Model& model, const ElementChunks& elements,
                       const Chunk& chunk, const Vec2* position, std::size_t thread) {
-  const PlasticChunk in = inputOf(model, chunk);
+  const PlasticChunk in = inputOf(model, elements, chunk);
   sumVolumes(set, chunk, elements.lanes.data(), in, position, now_.begin(chunk));
   now_.end(elements, chunk);
   if (!opensVolume(model, chunk)) return;
-  const Vec2* former = formerPositions(model, elements, chunk, position, threads_[thread]);
+  std::vector<Vec2>& room = threads_[thread].before;
+  room.clear();
+  const Vec2* former = in.before(chunk, position, room);
   sumVolumes(set, chunk, elements.lanes.data(), in, former, before_.begin(chunk));
   before_.end(elements, chunk);
 }
@@ -126,79 +123,6 @@ void PlasticFlow::sumShared(const ElementChunks& elements, std::size_t row) {
   before_.sumShared(elements, row);
   opened_.sumShared(elements, row);
 }
-
-/// Returns the elements of a chunk for which there is no vector loop.
-class PlasticFlow::Lanes final : public LaneReturn {
- public:
-  Lanes(PlasticFlow& flow, Model& model, const ElementChunks& elements, const Chunk& chunk,
-        const Vec2* position, Thread& thread)
-      : flow_(flow),
-        model_(model),
-        elements_(elements),
-        chunk_(chunk),
-        body_(model.components[chunk.firstComponent]),
-        constants_(body_),
-        position_(position),
-        thread_(thread) {
-    thread_.before.clear();
-  }
-
-  const Vec2* before() override {
-    if (thread_.before.empty())
-      flow_.formerPositions(model_, elements_, chunk_, position_, thread_);
-    return thread_.before.data();
-  }
-
-  FormerLanes& former() override { return thread_.former.emplace_back(); }
-
-  void operator()(std::uint32_t firstElement, const std::uint16_t (&corner)[3][kLanes],
-                  const std::array<bool, kLanes>& alone, TrialLanes& lanes) override {
-    for (std::uint32_t k = 0; k < kLanes; ++k)
-      if (alone[k]) turn(firstElement + k, {corner[0][k], corner[1][k], corner[2][k]}, k, lanes);
-  }
-  [[nodiscard]] double dissipated() const {
-    double sum = 0;
-    for (const double one : sums.dissipated) sum += one;
-    return sum;
-  }
-
- private:
-  void turn(std::uint32_t element, const std::array<std::uint16_t, 3>& corner, std::uint32_t k,
-            TrialLanes& lanes) {
-    const Vec2* last = before();
-    const auto edges = [&](const Vec2* x) {
-      return TriangleEdges{x[corner[1]] - x[corner[0]], x[corner[2]] - x[corner[0]]};
-    };
-    PlasticState& state = model_.triangles.plastic;
-    const YieldPoint point(state, element);
-    NodalPressure pressure{lanes.mean[k] / lanes.volume[k], 0};
-    if (opensVolume(model_, chunk_)) {
-      pressure.opening = flow_.opening_[element];
-      for (const std::uint16_t node : corner)
-        pressure.before += flow_.before_.of(chunk_)[node] * (1. / 3);
-    }
-    const TriangleMotion motion{
-        edges(position_), edges(last),
-        edges(position_).twiceArea() / (2 * model_.triangles.area[element])};
-    const Returned back = returnToYield(constants_, point, motion, flow_.dt_,
-                                        isSmoothed(chunk_) ? &pressure : nullptr);
-    back.point.put(state, element);
-    flow_.setYield(body_, state, element);
-    sums.steepest[k] = std::max(sums.steepest[k], squaredGradient(back.point.edges));
-    sums.dissipated[k] += back.dissipation * model_.triangles.area[element] * body_.thickness;
-    lanes.set(k, back.trial, back.kept);
-    lanes.mean[k] = back.mean;
-  }
-
-  PlasticFlow& flow_;
-  Model& model_;
-  const ElementChunks& elements_;
-  const Chunk& chunk_;
-  const Component& body_;
-  YieldConstants constants_;
-  const Vec2* position_;
-  Thread& thread_;
-};
 
 /// Of the groups of triangles that have flowed, from `first` of the thread's list on, and of those
 /// whose mean stress exceeds the spall stress.
@@ -251,10 +175,9 @@ void PlasticFlow::open(InstructionSet set, Model& model, const ElementChunks& el
                        std::size_t chunk, const Vec2* position) {
   const Chunk& own = elements.chunks[chunk];
   if (!opensVolume(model, own)) return;
-  const double bulk = SolidModuli(model.components[own.firstComponent].material).bulk;
-  now_.toPressures(elements, own, model.nodes.mass, bulk);
-  before_.toPressures(elements, own, model.nodes.mass, bulk);
-  const PlasticChunk in = inputOf(model, own);
+  toPressures(now_, model, elements, own);
+  toPressures(before_, model, elements, own);
+  const PlasticChunk in = inputOf(model, elements, own);
   openVolumes(set, own, elements.lanes.data(), in, position, opened_.begin(own));
   opened_.end(elements, own);
 }
@@ -263,22 +186,69 @@ bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunk
                             std::size_t chunk, const Vec2* position, Vec2* force,
                             std::size_t thread) {
   const Chunk& own = elements.chunks[chunk];
-  const double bulk = SolidModuli(model.components[own.firstComponent].material).bulk;
-  PlasticChunk in = inputOf(model, own);
+  PlasticChunk in = inputOf(model, elements, own);
   if (opensVolume(model, own))
-    in.pressure = opened_.toPressures(elements, own, model.nodes.mass, bulk);
+    in.pressure = toPressures(opened_, model, elements, own);
   else if (isSmoothed(own))
-    now_.toPressures(elements, own, model.nodes.mass, bulk);
-  Thread& room = threads_[thread];
-  Lanes flow(*this, model, elements, own, position, room);
+    toPressures(now_, model, elements, own);
+  FlowRoom& room = threads_[thread];
   const std::size_t first = room.former.size();
-  const bool good = addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
-  dissipated_[chunk] = flow.dissipated();
-  for (const double one : flow.sums.steepest)
-    room.squaredSteepest = std::max(room.squaredSteepest, one);
+  room.before.clear(), room.dissipated = 0;
+  const bool good = addPlasticForces(set, own, elements.lanes.data(), in, position, room, force);
+  dissipated_[chunk] = room.dissipated;
   if (model.components[own.firstComponent].fails())
     addDamage(model, elements, own, position, thread, first);
   return good;
+}
+
+double PlasticFlow::dissipation() const {
+  double sum = 0;
+  for (const double one : dissipated_) sum += one;
+  return sum;
+}
+
+void PlasticFlow::takeBack(Model& model) {
+  PlasticState& state = model.triangles.plastic;
+  for (FlowRoom& one : threads_) {
+    for (const FormerLanes& former : one.former) {
+      const Component& body = model.components[model.triangles.component[former.first].value];
+      for (std::uint32_t k = 0; k < former.count; ++k) {
+        const std::size_t e = former.first + k;
+        for (std::size_t i = 0; i < 4; ++i) state.edges[i][e] = former.edges[i][k];
+        state.thickness[e] = former.thickness[k];
+        state.strain[e] = former.strain[k], state.temperature[e] = former.temperature[k];
+        setYield(body, state, e);
+      }
+    }
+    one.former.clear(), one.squaredSteepest = 0;
+  }
+  damage_.takeBack(model);
+  std::ranges::fill(dissipated_, 0);
+}
+
+bool PlasticFlow::isSteeper(const Steepness& steepness) {
+  constexpr double kLimit = (1 + tolerance::kSteeper) * (1 + tolerance::kSteeper);
+  return steepness.last > kLimit * steepness.known;
+}
+
+PlasticFlow::Steepness PlasticFlow::steepness() const {
+  double last = restored_;
+  for (const FlowRoom& one : threads_) last = std::max(last, one.squaredSteepest);
+  return {squaredSteepest_, last};
+}
+
+void PlasticFlow::restore(const Steepness& steepness) {
+  squaredSteepest_ = steepness.known, restored_ = steepness.last;
+}
+
+void PlasticFlow::noteSteepest(const Model& model) {
+  squaredSteepest_ = 0;
+  for (const Component& body : model.components)
+    if (body.yields())
+      for (std::size_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+        if (!model.triangles.isDropped(e))
+          squaredSteepest_ = std::max(
+              squaredSteepest_, squaredGradient(YieldPoint(model.triangles.plastic, e).edges));
 }
 
 }  // namespace yadefrag

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/node_volumes.hpp"
+#include "dynamics/node_sums.hpp"
 #include "dynamics/plastic_damage.hpp"
 #include "dynamics/plastic_kernel.hpp"
 
@@ -66,27 +66,20 @@ class PlasticFlow {
   void appendFailed(std::vector<ElementRange>& ranges) const { damage_.appendFailed(ranges); }
 
  private:
-  class Lanes;
-  struct Thread {
-    std::vector<FormerLanes> former;
-    std::vector<Vec2> before;    // m, of the nodes of a chunk at the last step
-    double squaredSteepest = 0;  // 1/m²
-  };
-
   void addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
                  const Vec2* position, std::size_t thread, std::size_t first);
-  [[nodiscard]] PlasticChunk inputOf(Model& model, const Chunk& chunk);
-  const Vec2* formerPositions(const Model& model, const ElementChunks& elements, const Chunk& chunk,
-                              const Vec2* position, Thread& thread) const;
+  [[nodiscard]] PlasticChunk inputOf(Model& model, const ElementChunks& elements,
+                                     const Chunk& chunk);
   void setYield(const Component& body, const PlasticState& state, std::size_t element);
 
-  std::vector<double> yield_;       // Pa, by triangle
-  std::vector<double> thermal_;     // factor of the temperature in it
-  NodeVolumes now_;                 // at xⁿ, before flow
-  NodeVolumes before_, opened_;     // at xⁿ⁻¹, and at xⁿ after flow that changes volumes
+  std::vector<double> yield_;    // Pa, by triangle
+  std::vector<double> thermal_;  // factor of the temperature in it
+  // m³, a third of V·J of each triangle, then pressures (Pa): at xⁿ before flow, at xⁿ⁻¹, and at
+  // xⁿ after flow that changes volumes.
+  NodeSums<double> now_, before_, opened_;
   std::vector<double> opening_;     // by triangle, volume strain of the last flow
   std::vector<double> dissipated_;  // J, by chunk
-  std::vector<Thread> threads_;
+  std::vector<FlowRoom> threads_;
   PlasticDamage damage_;
   double dt_ = 0;
   double squaredSteepest_ = 0;

@@ -1,214 +1,232 @@
 #include "dynamics/plastic_kernel.hpp"
 
 #include <algorithm>
-#include <array>
-#include <span>
 
-#include "core/tolerances/plasticity.hpp"
-#include "dynamics/cone_lanes.hpp"
-#include "dynamics/plastic_groups.hpp"
-#include "dynamics/yield_lanes.hpp"
+#include "dynamics/plastic_lanes.hpp"
 
 namespace yadefrag {
 namespace {
 
-/// One group of a block.
-struct GroupLanes {
-  Corners corners, before;
-  StateLanes state;
-  TrialLanes trial;
-  FlowLanes flow;
-  FlowedLanes fresh;
-  ConeLanes cone;
+using Kind = YieldConstants::Kind;
+
+/// std::copy_n would call memmove.
+[[gnu::always_inline]] inline void copyLanes(const double* from, double* to) {
+#pragma omp simd
+  for (std::size_t k = 0; k < kLanes; ++k) to[k] = from[k];
+}
+
+/// Copies values of elements to lanes and back; lanes after the last element repeat its value.
+class Group {
+ public:
+  [[gnu::always_inline]] Group(const Chunk& chunk, std::size_t lane)
+      : first(static_cast<std::uint32_t>(chunk.firstElement + kLanes * (lane - chunk.firstLanes))),
+        count(std::min<std::uint32_t>(kLanes, chunk.lastElement - first)) {}
+
+  [[gnu::always_inline]] void load(const double* values, double* lanes) const {
+    if (count == kLanes)
+      copyLanes(values + first, lanes);
+    else
+      for (std::uint32_t k = 0; k < kLanes; ++k) lanes[k] = values[first + std::min(k, count - 1)];
+  }
+  [[gnu::always_inline]] void store(const double* lanes, double* values) const {
+    if (count == kLanes)
+      copyLanes(lanes, values + first);
+    else
+      std::copy_n(lanes, count, values + first);
+  }
+
+  std::uint32_t first, count;
 };
 
-template <bool kPlane, bool kNodal, YieldCurve::Kind kKind>
+[[gnu::always_inline]] inline void meansOfNodes(const ElementLanes& e, const double* nodes,
+                                                double* lanes) {
+  for (std::size_t k = 0; k < kLanes; ++k)
+    lanes[k] = (nodes[e.corner[0][k]] + nodes[e.corner[1][k]] + nodes[e.corner[2][k]]) * (1. / 3);
+}
+
+/// What `tryLanes` needs of the group of lanes from `at` on.
+template <bool kNodal, bool kCone, std::size_t W>
+[[gnu::always_inline]] inline void loadLanes(const ElementLanes& e, const PlasticChunk& in,
+                                             const Group& group, const Corners<W>& c,
+                                             std::size_t at, FlowLanes<W>& w) {
+  for (std::size_t i = 0; i < 4; ++i) group.load(in.edges[i], w.edges[i] + at);
+  group.load(in.thickness, w.thickness + at);
+  group.load(in.yield, w.yield + at);
+  if constexpr (kNodal) meansOfNodes(e, in.pressure, w.pressure + at);
+  if constexpr (!kCone) return;
+#pragma omp simd
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const double inverse =
+        e.inverseEdges[0][k] * e.inverseEdges[3][k] - e.inverseEdges[1][k] * e.inverseEdges[2][k];
+    w.size[at + k] = c.twiceArea(at + k) * inverse;
+    w.opening[at + k] = 0;
+  }
+}
+
+template <std::size_t W>
+[[gnu::always_inline]] inline int countFlat(const FlowLanes<W>& w, std::size_t count) {
+  int flat = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    flat += w.trial.volume[k] > tolerance::kFlat ? 0 : 1;  // also for NaN
+  return flat;
+}
+
+/// Replaces the corners' coordinates by their forces −V τ ∇N, with the present gradients ∇N.
+template <std::size_t W>
+[[gnu::always_inline]] inline void forcesOfLanes(const ElementLanes& e, double shear,
+                                                 const FlowLanes<W>& w, std::size_t at,
+                                                 Corners<W>& c) {
+#pragma omp simd
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::size_t k = at + i;
+    const double d1x = c.x[1][k] - c.x[0][k], d1y = c.y[1][k] - c.y[0][k];
+    const double d2x = c.x[2][k] - c.x[0][k], d2y = c.y[2][k] - c.y[0][k];
+    const double scale = e.volume[i] / (d1x * d2y - d1y * d2x);
+    const PlaneStress stress(w.trial[k], w.mean[k], w.kept[k], shear);
+    const double xx = scale * stress.xx, yy = scale * stress.yy, xy = scale * stress.xy;
+    c.setForces(k, -(xx * d2y - xy * d2x), -(xy * d2y - yy * d2x), xx * d1y - xy * d1x,
+                xy * d1y - yy * d1x);
+  }
+}
+
+template <bool kPlane, bool kNodal, Kind kKind>
 struct AddForces {
-  static constexpr bool kCone = kKind == YieldCurve::Kind::kCone;
+  static constexpr bool kCone = kKind == Kind::kCone;
+  static constexpr std::size_t kBlock = kLanes * tolerance::kLaneBlock;
 
   const Chunk& chunk;
   const ElementLanes* lanes;
   const PlasticChunk& in;
   const Vec2* position;
-  LaneReturn& flow;
+  FlowRoom& room;
   Vec2* force;
 
   [[gnu::always_inline]] bool operator()() const {
     int flat = 0;
-    FlowSums sums;
-    std::array<GroupLanes, tolerance::kLaneBlock> block;
+    Corners<kBlock> now, before;
+    const ReturnInput<kBlock> input{in.constants, in.dt, now, before};
+    FlowLanes<kBlock> w;
+    Sums sums;
     for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; l += tolerance::kLaneBlock) {
       const std::uint32_t count =
           std::min<std::uint32_t>(tolerance::kLaneBlock, chunk.lastLanes - l);
-      std::array<std::uint32_t, tolerance::kLaneBlock> yielding;
-      std::uint32_t found = 0;
-      // In loops of their own: lanes are read as vectors, which must wait until the single values
+      // In a loop of its own: lanes are read as vectors, which must wait until the single values
       // have been written.
-      for (std::uint32_t i = 0; i < count; ++i) gather(lanes[l + i], position, block[i].corners);
+      for (std::uint32_t i = 0; i < count; ++i) gather(lanes[l + i], position, now, i * kLanes);
+      w.groups.count = 0;
       for (std::uint32_t i = 0; i < count; ++i) {
-        GroupLanes& g = block[i];
-        const Group group = groupOf(l + i);
-        group.load(in, g.state);
-        group.load(in.yield, g.flow.yield);
-        if constexpr (kCone && kNodal) group.load(in.opening, g.flow.opening);
-        const Trials trials =
-            tryLanes<kPlane, kNodal, kCone>(lanes[l + i], in, g.state, g.corners, g.flow, g.trial);
-        flat += trials.flat;
-        yielding[found] = i;
-        found += trials.yielding != 0 ? 1 : 0;
+        const Group group(chunk, l + i);
+        loadLanes<kNodal, kCone>(lanes[l + i], in, group, now, i * kLanes, w);
+        if constexpr (kCone && kNodal) group.load(in.opening, w.opening + i * kLanes);
+        w.groups.add(i * kLanes);
       }
-      if (found != 0) flowBlock(l, std::span(yielding).first(found), block, sums);
+      tryLanes<kPlane, kNodal, kCone>(input, w);
+      flat += countFlat(w, count * kLanes);
+      w.groups = w.groups.with([&](std::size_t k)
+                                   __attribute__((always_inline)) { return w.over[k] > 0; });
+      if (w.groups.count > 0) flowBlock(l, input, before, w, sums);
       for (std::uint32_t i = 0; i < count; ++i) {
-        forcesOfLanes(lanes[l + i], in.moduli.shear, block[i].trial, block[i].corners);
-        scatter(lanes[l + i], block[i].corners, force);
+        forcesOfLanes(lanes[l + i], in.constants.moduli.shear, w, i * kLanes, now);
+        scatter(lanes[l + i], now, force, i * kLanes);
       }
     }
-    addTo(flow.sums, sums);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      room.dissipated += sums.dissipated[k];
+      room.squaredSteepest = std::max(room.squaredSteepest, sums.steepest[k]);
+    }
     return flat == 0;
   }
 
  private:
-  [[nodiscard, gnu::always_inline]] Group groupOf(std::uint32_t l) const {
-    return {firstOf(l), chunk.lastElement};
-  }
-  [[nodiscard, gnu::always_inline]] std::uint32_t firstOf(std::uint32_t l) const {
-    return chunk.firstElement + static_cast<std::uint32_t>(kLanes) * (l - chunk.firstLanes);
-  }
+  struct alignas(64) Sums {
+    double dissipated[kLanes] = {}, steepest[kLanes] = {};
+  };
 
-  [[gnu::always_inline]] static void addTo(FlowSums& sums, const FlowSums& more) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      sums.dissipated[k] += more.dissipated[k];
-      sums.steepest[k] = std::max(sums.steepest[k], more.steepest[k]);
+  [[gnu::always_inline]] void flowBlock(std::uint32_t l, const ReturnInput<kBlock>& input,
+                                        Corners<kBlock>& before, FlowLanes<kBlock>& w,
+                                        Sums& sums) const {
+    const Vec2* former = in.before(chunk, position, room.before);
+    for (std::uint32_t i = 0; i < w.groups.count; ++i) {
+      const std::size_t at = w.groups.first[i];
+      const ElementLanes& e = lanes[l + at / kLanes];
+      prepare(Group(chunk, l + at / kLanes), at, w);
+      if constexpr (kCone && kNodal) meansOfNodes(e, in.formerPressure, w.formerPressure + at);
+      gather(e, former, before, at);
+    }
+    returnLanes<kKind, kPlane, kNodal>(input, w);
+    yieldAfter<kKind>(in.constants, w);
+    for (std::uint32_t i = 0; i < w.groups.count; ++i) {
+      const std::size_t at = w.groups.first[i];
+      put(Group(chunk, l + at / kLanes), at, w);
+      const double* volume = lanes[l + at / kLanes].volume;
+#pragma omp simd
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        sums.dissipated[k] += w.work[at + k] * volume[k];
+        sums.steepest[k] = std::max(sums.steepest[k], w.steep[at + k]);
+      }
     }
   }
 
-  /// In many short loops over the groups, so that the values of one need not wait for another's.
-  [[gnu::always_inline]] void flowBlock(std::uint32_t l, std::span<const std::uint32_t> yielding,
-                                        std::array<GroupLanes, tolerance::kLaneBlock>& block,
-                                        FlowSums& sums) const {
-    const auto forEach = [&](auto work) __attribute__((always_inline)) {
-      for (const std::uint32_t i : yielding) work(block[i], l + i);
-    };
-    forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) { prepare(i, g); });
-    if constexpr (kCone)
-      flowOnCone(forEach, sums);
-    else if constexpr (kKind != YieldCurve::Kind::kAlone)
-      flowOnCurve(forEach, sums);
-    forEach([&](GroupLanes & g, std::uint32_t i)
-                __attribute__((always_inline)) { returnAlone(i, g); });
+  /// Keeps the state of a group, and fetches what its return needs.
+  [[gnu::always_inline]] void prepare(const Group& group, std::size_t at,
+                                      FlowLanes<kBlock>& w) const {
+    group.load(in.strain, w.strain + at);
+    group.load(in.temperature, w.temperature + at);
+    if constexpr (!kCone) group.load(in.thermal, w.thermal + at);
+    FormerLanes& former = room.former.emplace_back();
+    former.first = group.first, former.count = group.count;
+    for (std::size_t i = 0; i < 4; ++i) copyLanes(w.edges[i] + at, former.edges[i]);
+    copyLanes(w.thickness + at, former.thickness);
+    copyLanes(w.strain + at, former.strain);
+    copyLanes(w.temperature + at, former.temperature);
+    for (std::uint32_t k = group.count; k < kLanes; ++k) w.over[at + k] = 0;
   }
 
-  template <class ForEach>
-  [[gnu::always_inline]] void flowOnCurve(const ForEach& forEach, FlowSums& sums) const {
-    constexpr bool kCurved = kKind == YieldCurve::Kind::kCurved;
-    const YieldCurve c = in.curve;
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      lookBack<kKind>(g.before, g.state, g.trial, in.moduli.shear, g.flow);
-    });
-    if constexpr (kCurved)
-      stepOnCurve(c, forEach);
-    else
-      forEach([&](GroupLanes & g, std::uint32_t)
-                  __attribute__((always_inline)) { stepOnLine(c, g.flow); });
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      markLanes(c, g.trial, g.flow);
-      hardenLanes<kCurved>(c, g.trial, g.flow, g.fresh);
-    });
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      shapeLanes<false>(g.state, g.trial, g.flow, g.fresh);
-    });
-    if constexpr (kCurved) yieldAfter(c, forEach);
-    forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) {
-      takeFlow<kCurved>(g.fresh, lanes[i].volume, g.state, g.trial, g.flow, sums);
-      put(groupOf(i), g);
-    });
-  }
-
-  template <class ForEach>
-  [[gnu::always_inline]] void flowOnCone(const ForEach& forEach, FlowSums& sums) const {
-    const SolidModuli moduli = in.moduli;
-    forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) {
-      lookBack<kKind>(g.before, g.state, g.trial, moduli.shear, g.flow);
-      formerMeans(lanes[i], in.formerPressure, moduli.bulk, g.flow, g.cone);
-    });
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      returnToCone<kNodal>(in.cone, moduli, g.trial, g.flow, g.cone, g.fresh);
-    });
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      shapeLanes<true>(g.state, g.trial, g.flow, g.fresh);
-    });
-    forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) {
-      takeConeFlow(g.fresh, g.cone, lanes[i].volume, g.state, g.trial, g.flow, sums);
-      put(groupOf(i), g);
-    });
-  }
-
-  template <class ForEach>
-  [[gnu::always_inline]] static void stepOnCurve(const YieldCurve& c, const ForEach& forEach) {
-    forEach([&](GroupLanes & g, std::uint32_t)
-                __attribute__((always_inline)) { estimateStep(c, g.flow); });
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      takeLogarithms(g.flow.power);
-      takeLogarithms(g.flow.logarithm);
-    });
-    forEach([&](GroupLanes & g, std::uint32_t)
-                __attribute__((always_inline)) { estimateStress(c, g.flow); });
-    forEach([&](GroupLanes & g, std::uint32_t)
-                __attribute__((always_inline)) { improveStep<true>(c, g.flow); });
-    forEach([&](GroupLanes & g, std::uint32_t)
-                __attribute__((always_inline)) { settleStep(c, g.flow); });
-  }
-
-  template <class ForEach>
-  [[gnu::always_inline]] static void yieldAfter(const YieldCurve& c, const ForEach& forEach) {
-    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      takeLogarithms(g.flow.power);
-      takeLogarithms(g.flow.heat);
-    });
-    forEach([&](GroupLanes & g, std::uint32_t)
-                __attribute__((always_inline)) { yieldOfLanes(c, g.flow, g.fresh); });
-  }
-
-  /// Keeps the state of a group, and fetches what it needs.
-  [[gnu::always_inline]] void prepare(std::uint32_t l, GroupLanes& g) const {
-    const Group group = groupOf(l);
-    group.load(in.strain, g.flow.strain);
-    group.load(in.temperature, g.flow.temperature);
-    FormerLanes& former = flow.former();
-    former.first = firstOf(l), former.count = group.count();
-    for (std::size_t i = 0; i < 4; ++i) copyLanes(g.state.edges[i], former.edges[i]);
-    copyLanes(g.state.thickness, former.thickness);
-    copyLanes(g.flow.strain, former.strain);
-    copyLanes(g.flow.temperature, former.temperature);
-    if constexpr (kKind == YieldCurve::Kind::kAlone) {
-      copyLanes(g.flow.over, g.flow.fails);
-    } else {
-      if constexpr (kKind == YieldCurve::Kind::kCurved) group.load(in.thermal, g.flow.thermal);
-      gather(lanes[l], flow.before(), g.before);
-      for (std::uint32_t k = group.count(); k < kLanes; ++k) g.flow.over[k] = 0;
-    }
-  }
-
-  [[gnu::always_inline]] void put(const Group& group, const GroupLanes& g) const {
-    for (std::size_t i = 0; i < 4; ++i) group.store(g.state.edges[i], in.edges[i]);
-    group.store(g.state.thickness, in.thickness);
-    group.store(g.flow.strain, in.strain);
+  [[gnu::always_inline]] void put(const Group& group, std::size_t at,
+                                  const FlowLanes<kBlock>& w) const {
+    for (std::size_t i = 0; i < 4; ++i) group.store(w.edges[i] + at, in.edges[i]);
+    group.store(w.thickness + at, in.thickness);
+    group.store(w.strain + at, in.strain);
     if constexpr (kCone) return;
-    group.store(g.flow.temperature, in.temperature);
-    group.store(g.flow.yield, in.yield);
-    if constexpr (kKind == YieldCurve::Kind::kCurved) group.store(g.flow.thermal, in.thermal);
-  }
-
-  [[gnu::always_inline]] void returnAlone(std::uint32_t l, GroupLanes& g) const {
-    double any = 0;
-    for (const double fails : g.flow.fails) any = std::max(any, fails);
-    if (any <= 0) return;
-    std::array<bool, kLanes> alone;
-    for (std::size_t k = 0; k < kLanes; ++k)
-      alone[k] = g.flow.fails[k] > 0 && firstOf(l) + k < chunk.lastElement;
-    flow(firstOf(l), lanes[l].corner, alone, g.trial);
+    group.store(w.temperature + at, in.temperature);
+    group.store(w.yield + at, in.yield);
+    group.store(w.thermal + at, in.thermal);
   }
 };
+
+/// Chooses the loop.
+struct Forces {
+  InstructionSet set;
+  const Chunk& chunk;
+  const ElementLanes* lanes;
+  const PlasticChunk& in;
+  const Vec2* position;
+  FlowRoom& room;
+  Vec2* force;
+
+  template <bool kPlane, bool kNodal, Kind kKind>
+  [[nodiscard]] bool add() const {
+    return runForWide(set,
+                      AddForces<kPlane, kNodal, kKind>{chunk, lanes, in, position, room, force});
+  }
+  template <bool kNodal>
+  [[nodiscard]] bool addInPlaneStrain() const {
+    if (in.constants.kind == Kind::kLine) return add<false, kNodal, Kind::kLine>();
+    if (in.constants.kind == Kind::kCurved) return add<false, kNodal, Kind::kCurved>();
+    if (in.constants.kind == Kind::kCone) return add<false, kNodal, Kind::kCone>();
+    return add<false, kNodal, Kind::kAny>();
+  }
+};
+
+/// Adds a third of each lane's volume to its nodes.
+[[gnu::always_inline]] inline void addThirds(const ElementLanes& e, const double* ratio,
+                                             double* nodes) {
+  alignas(64) double third[kLanes];
+#pragma omp simd
+  for (std::size_t k = 0; k < kLanes; ++k) third[k] = e.volume[k] * (1. / 3) * ratio[k];
+  for (std::size_t k = 0; k < kLanes; ++k)
+    for (const auto& corner : e.corner) nodes[corner[k]] += third[k];
+}
 
 struct OpenVolumes {
   const Chunk& chunk;
@@ -218,47 +236,35 @@ struct OpenVolumes {
   double* nodes;
 
   [[gnu::always_inline]] void operator()() const {
-    GroupLanes g;
-    alignas(64) double third[kLanes];
-    std::uint32_t first = chunk.firstElement;
-    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l, first += kLanes) {
-      gather(lanes[l], position, g.corners);
-      const Group group(first, chunk.lastElement);
-      group.load(in, g.state);
-      group.load(in.yield, g.flow.yield);
-      for (double& one : g.flow.opening) one = 0;
-      const Trials trials =
-          tryLanes<false, true, true>(lanes[l], in, g.state, g.corners, g.flow, g.trial);
-      if (trials.yielding != 0) open(g.trial, g.flow);
-      group.store(g.flow.opening, in.opening);
-#pragma omp simd
-      for (std::size_t k = 0; k < kLanes; ++k)
-        third[k] = lanes[l].volume[k] * (1. / 3) * g.trial.volume[k];
-      for (std::size_t k = 0; k < kLanes; ++k)
-        for (const auto& corner : lanes[l].corner) nodes[corner[k]] += third[k];
+    Corners<kLanes> now;
+    const ReturnInput<kLanes> input{in.constants, in.dt, now, now};
+    FlowLanes<kLanes> w;
+    w.groups.add(0);
+    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
+      gather(lanes[l], position, now);
+      const Group group(chunk, l);
+      loadLanes<true, true>(lanes[l], in, group, now, 0, w);
+      tryLanes<false, true, true>(input, w);
+      open(w);
+      group.store(w.opening, in.opening);
+      addThirds(lanes[l], w.trial.volume, nodes);
     }
   }
 
  private:
-  [[gnu::always_inline]] void open(TrialLanes& t, FlowLanes& w) const {
-    const SolidModuli m = in.moduli;
-    const Cone c = in.cone;
-    double most = 0;
-    const auto trialOf = [&](std::size_t k) __attribute__((always_inline)) {
-      const double volume = t.volume[k];
-      return ConeTrial{m.shear * std::sqrt(t.squaredMises[k] * (1. / 3)), t.mean[k],
-                       nodalStiffness(t.mean[k] / volume, volume, m.bulk), w.size[k]};
-    };
-#pragma omp simd reduction(max : most)
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const double opening = coneFlow<true>(c, m.shear, trialOf(k)).opening;
+  [[gnu::always_inline]] void open(FlowLanes<kLanes>& w) const {
+    const SolidModuli m = in.constants.moduli;
+    const Cone c = in.constants.cone;
+    w.forAnySize([&](std::size_t k, auto isAlone) __attribute__((always_inline)) {
+      constexpr bool kTiny = !decltype(isAlone)::value;
+      const double volume = w.trial.volume[k];
+      const ConeTrial at{m.shear * std::sqrt(w.trial[k].squaredMises() * (1. / 3)), w.mean[k],
+                         nodalStiffness(w.mean[k] / volume, volume, m.bulk), w.size[k]};
+      const double opening = coneFlow<kTiny>(c, m.shear, at).opening;
       w.opening[k] = w.over[k] > 0 ? opening : 0;
-      most = std::max(most, w.opening[k]);
-    }
-    for (std::size_t k = 0; most >= tolerance::kTinyFlow && k < kLanes; ++k)
-      if (w.opening[k] >= tolerance::kTinyFlow)
-        w.opening[k] = coneFlow<false>(c, m.shear, trialOf(k)).opening;
-    for (std::size_t k = 0; k < kLanes; ++k) t.volume[k] *= expOfSmall(-w.opening[k]);
+      w.rare[k] = w.opening[k] < tolerance::kTinyFlow ? 0 : 1;
+    });
+    for (std::size_t k = 0; k < kLanes; ++k) w.trial.volume[k] *= expOfSmall(-w.opening[k]);
   }
 };
 
@@ -270,54 +276,40 @@ struct SumVolumes {
   double* nodes;
 
   [[gnu::always_inline]] void operator()() const {
-    Corners c;
-    alignas(64) double third[kLanes];
-    std::uint32_t first = chunk.firstElement;
-    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l, first += kLanes) {
+    Corners<kLanes> c;
+    alignas(64) double edges[4][kLanes], thickness[kLanes], ratio[kLanes];
+    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
       gather(lanes[l], position, c);
-      StateLanes s;
-      Group(first, chunk.lastElement).load(in, s);
+      const Group group(chunk, l);
+      for (std::size_t i = 0; i < 4; ++i) group.load(in.edges[i], edges[i]);
+      group.load(in.thickness, thickness);
 #pragma omp simd
       for (std::size_t k = 0; k < kLanes; ++k) {
-        const double d1x = c.x[1][k] - c.x[0][k], d1y = c.y[1][k] - c.y[0][k];
-        const double d2x = c.x[2][k] - c.x[0][k], d2y = c.y[2][k] - c.y[0][k];
-        const double inverse = s.edges[0][k] * s.edges[3][k] - s.edges[1][k] * s.edges[2][k];
-        third[k] =
-            lanes[l].volume[k] * (1. / 3) * s.thickness[k] * inverse * (d1x * d2y - d1y * d2x);
+        const double inverse = edges[0][k] * edges[3][k] - edges[1][k] * edges[2][k];
+        ratio[k] = thickness[k] * inverse * c.twiceArea(k);
       }
-      for (std::size_t k = 0; k < kLanes; ++k)
-        for (const auto& corner : lanes[l].corner) nodes[corner[k]] += third[k];
+      addThirds(lanes[l], ratio, nodes);
     }
   }
 };
 
-template <bool kPlane, bool kNodal>
-bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-               const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
-  using enum YieldCurve::Kind;
-  if constexpr (!kPlane) {
-    if (in.curve.kind == kLine)
-      return runForWide(set,
-                        AddForces<kPlane, kNodal, kLine>{chunk, lanes, in, position, flow, force});
-    if (in.curve.kind == kCurved)
-      return runForWide(
-          set, AddForces<kPlane, kNodal, kCurved>{chunk, lanes, in, position, flow, force});
-    if (in.curve.kind == kCone)
-      return runForWide(set,
-                        AddForces<kPlane, kNodal, kCone>{chunk, lanes, in, position, flow, force});
-  }
-  return runForWide(set,
-                    AddForces<kPlane, kNodal, kAlone>{chunk, lanes, in, position, flow, force});
-}
-
 }  // namespace
 
+const Vec2* PlasticChunk::before(const Chunk& chunk, const Vec2* position,
+                                 std::vector<Vec2>& room) const {
+  if (!room.empty()) return room.data();
+  room.resize(chunk.lastNode - chunk.firstNode);
+  for (std::size_t i = 0; i < room.size(); ++i)
+    room[i] = position[i] - dt * velocity[nodes[i].value];
+  return room.data();
+}
+
 bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
-  if (in.planeStress) return addForces<true, false>(set, chunk, lanes, in, position, flow, force);
-  if (in.pressure != nullptr)
-    return addForces<false, true>(set, chunk, lanes, in, position, flow, force);
-  return addForces<false, false>(set, chunk, lanes, in, position, flow, force);
+                      const PlasticChunk& in, const Vec2* position, FlowRoom& room, Vec2* force) {
+  const Forces forces{set, chunk, lanes, in, position, room, force};
+  if (in.constants.planeStress) return forces.add<true, false, Kind::kAny>();
+  return in.pressure != nullptr ? forces.addInPlaneStrain<true>()
+                                : forces.addInPlaneStrain<false>();
 }
 
 void openVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,

@@ -1,7 +1,6 @@
 #pragma once
-// The return of a trial stress of one triangle to the yield surface, and the flow that follows.
-// Radial return (Simo and Hughes 1998, box 3.1 and 9.1): the deviator of the elastic strain is
-// multiplied by 1 − 3μΔp/q, with Δp from q − 3μΔp = Y(p + Δp, Δp/Δt, T).
+// The return of a trial stress of one triangle to the yield surface, and the flow that follows:
+// what goes in and comes out. The return itself is in plastic_lanes.hpp.
 
 #include <array>
 
@@ -13,20 +12,28 @@ namespace yadefrag {
 
 /// Constants of a body that yields.
 struct YieldConstants {
+  enum class Kind {
+    kAny,     ///< a metal whose stresses are computed one by one: with a table, or in plane stress
+    kLine,    ///< without effects of rate and temperature, and linear
+    kCurved,  ///< Johnson and Cook's law, or the power law
+    kCone,    ///< a frictional material
+  };
+
   const PlasticMaterial& plastic;
   SolidModuli moduli;
   Cone cone;
   double heating;  ///< K m³/J, of plastic work
   bool planeStress;
+  Kind kind;
+  /// Of a metal without a table, Y₀ = base + factor (begin + p/unit)ⁿ, n = 0 with one.
+  double base, factor, begin = 0, unit = 1, exponent;
+  double shift = 0;  ///< p₀
+  double bending;    ///< n − 1, 0 with a table
+  double accuracy;   ///< change of Δp, of Δp, with which the return ends
+  /// m; K, infinite if the temperature has no effect; Tₘ − T₀, K.
+  double thermalExponent = 1, startTemperature, range = 1;
 
-  explicit YieldConstants(const BodyMaterial& m)
-      : plastic(m.plastic),
-        moduli(m.material),
-        cone(m.plastic),
-        heating(m.plastic.isHeated()
-                    ? m.plastic.heatShare / (m.material.density * m.plastic.heatCapacity)
-                    : 0),
-        planeStress(m.material.planeStress) {}
+  explicit YieldConstants(const BodyMaterial& m);
 };
 
 /// State of one triangle (mesh/plastic_state.hpp).
@@ -60,10 +67,6 @@ struct TriangleEdges {
 
 /// (Pa) Yield stress in slow flow; of a cone, √3 ξc.
 [[nodiscard]] double yieldStress(const PlasticMaterial& m, double strain, double temperature);
-
-/// Δp in a step of Δt (s; 0: slow) from a trial stress q (Pa), above the slow yield stress `slow`.
-[[nodiscard]] double plasticStep(const YieldConstants& c, const YieldPoint& point, double slow,
-                                 double trial, double dt);
 
 /// The elastic stretch across the plane for which the stress there is zero, if the part `kept` of
 /// the deviator remains; `guess`: a near one.
@@ -112,7 +115,11 @@ struct Returned {
                                   double pressure);
 
 /// (1/m²) Largest |∇N|² of a stress-free shape.
-[[nodiscard]] double squaredGradient(const std::array<double, 4>& edges);
+[[gnu::always_inline]] inline double squaredGradient(const std::array<double, 4>& e) {
+  const double x = e[0] + e[2], y = e[1] + e[3];
+  const double second = e[0] * e[0] + e[1] * e[1], third = e[2] * e[2] + e[3] * e[3];
+  return std::max(std::max(x * x + y * y, second), third);
+}
 
 /// (J/m³) Elastic energy of the deviator.
 [[nodiscard]] double deviatorEnergy(const ElasticTrial& trial, double kept, double shear);

@@ -11,16 +11,15 @@ namespace {
 
 template <bool kWatched>
 [[gnu::always_inline]] inline Findings splitGradients(const ElementLanes& e, const Chunk& chunk,
-                                                      const Corners& c, DistortionLanes& kept,
+                                                      const Corners<kLanes>& c,
+                                                      DistortionLanes& kept,
                                                       SplitGradient* weighted) {
   const StressLimit limit(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const Matrix2 f = deformationGradient(
-        c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k], c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],
-        e.inverseEdges[0][k], e.inverseEdges[1][k], e.inverseEdges[2][k], e.inverseEdges[3][k]);
+    const Matrix2 f = c.gradient(e.inverseEdges, k);
     flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // also for NaN
     if constexpr (kWatched) stressed += isStressed(f, chunk.lame, chunk.shear, limit) ? 1 : 0;
     const double third = e.volume[k] * (1. / 3);
@@ -47,7 +46,8 @@ struct SumGradients {
 
   [[gnu::always_inline]] bool operator()() const {
     alignas(64) SplitGradient weighted[kLanes];
-    const auto sum = [&](std::uint32_t l, const Corners& corners) __attribute__((always_inline)) {
+    const auto sum = [&](std::uint32_t l, const Corners<kLanes>& corners)
+        __attribute__((always_inline)) {
       const Findings found = splitGradients<kWatched>(lanes[l], chunk, corners, kept[l], weighted);
       for (const auto& corner : lanes[l].corner)
         for (std::size_t k = 0; k < kLanes; ++k) nodes[corner[k]] += weighted[k];
@@ -101,7 +101,7 @@ struct AddForces {
   Vec2* force;
 
   [[gnu::always_inline]] void operator()() const {
-    Corners c;
+    Corners<kLanes> c;
     alignas(64) SplitGradient stress[kLanes];
     const double own = (1 - kSmoothedShare) * chunk.shear;
     for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
@@ -128,12 +128,7 @@ struct AddForces {
         const double f1y = -(yx * e.inverseEdges[0][k] + yy * e.inverseEdges[1][k]);
         const double f2x = -(xx * e.inverseEdges[2][k] + xy * e.inverseEdges[3][k]);
         const double f2y = -(yx * e.inverseEdges[2][k] + yy * e.inverseEdges[3][k]);
-        c.x[0][k] = -(f1x + f2x);
-        c.y[0][k] = -(f1y + f2y);
-        c.x[1][k] = f1x;
-        c.y[1][k] = f1y;
-        c.x[2][k] = f2x;
-        c.y[2][k] = f2y;
+        c.setForces(k, f1x, f1y, f2x, f2y);
       }
       scatter(e, c, force);
     }
@@ -143,15 +138,11 @@ struct AddForces {
 }  // namespace
 
 bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                  const Vec2* position, DistortionLanes* kept, SplitGradient* nodes) {
-  StressedLanes none;
-  return runFor(set, SumGradients<false>{chunk, lanes, position, kept, nodes, none});
-}
-
-bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                   const Vec2* position, DistortionLanes* kept, SplitGradient* nodes,
                   std::vector<ElementRange>& stressed) {
   StressedLanes found;
+  if (!std::isfinite(chunk.squaredStressLimit))
+    return runFor(set, SumGradients<false>{chunk, lanes, position, kept, nodes, found});
   const bool good = runFor(set, SumGradients<true>{chunk, lanes, position, kept, nodes, found});
   found.appendTo(stressed, chunk);
   return good;

@@ -15,12 +15,9 @@ struct alignas(64) DistortionLanes {
   double part[2][kLanes];
 };
 
-/// Adds the gradients, multiplied by a third of the volume (m³), to `nodes` (by local number), and
-/// stores the distortions. Returns false if an element is inverted or not finite.
-bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                  const Vec2* position, DistortionLanes* kept, SplitGradient* nodes);
-/// The same, with the same bits; it appends the ranges of stressed elements as `addElasticForces`
-/// does.
+/// Adds the gradients, multiplied by a third of the volume (m³), to `nodes` (by local number),
+/// stores the distortions, and appends the ranges of stressed elements as `addElasticForces` does.
+/// Returns false if an element is inverted or not finite.
 bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                   const Vec2* position, DistortionLanes* kept, SplitGradient* nodes,
                   std::vector<ElementRange>& stressed);

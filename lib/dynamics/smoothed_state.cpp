@@ -9,21 +9,13 @@
 namespace yadefrag {
 namespace {
 
-const Component& bodyOf(const Model& model, ElementId element) {
-  return model.components[model.triangles.component[element.value].value];
-}
-
-double volumeOf(const Model& model, ElementId element) {
-  return model.triangles.area[element.value] * bodyOf(model, element).thickness;
-}
-
 /// (J) Twice the triangle's own energy at the half step.
 double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
   const Matrix2 f = deformationGradient(model, element);
   const Matrix2 last = f - deformationStep(model, element, dt);
   const SplitGradient now = splitGradient(f);
   const SplitGradient before = splitGradient(last);
-  const ElasticMaterial& material = bodyOf(model, element).material;
+  const ElasticMaterial& material = model.bodyOf(element).material;
   return (1 - kSmoothedShare) * material.shearModulus() * volumeOf(model, element) *
              (now.part[2] * before.part[2] + now.part[3] * before.part[3]) +
          volumeOf(model, element) * twiceBarrierEnergy(f, last, material.waveModulus());
@@ -46,7 +38,7 @@ void forEachSmoothed(const Model& model, Use use) {
 std::vector<SplitGradient> smoothedMeans(const Model& model) {
   std::vector<SplitGradient> means(model.nodes.size());
   forEachSmoothed(model, [&](ElementId element) {
-    const SplitGradient mass = bodyOf(model, element).material.density * volumeOf(model, element) /
+    const SplitGradient mass = model.bodyOf(element).material.density * volumeOf(model, element) /
                                3 * splitGradient(deformationGradient(model, element));
     for (const NodeId node : model.triangles.nodes[element.value])
       means[node.value] += 1 / model.nodes.mass[node.value] * mass;
@@ -107,14 +99,14 @@ double smoothedEnergy(const Model& model, double dt) {
 double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt) {
   std::vector<NodeId> nodes;
   for (const ElementId e : elements)
-    if (isSmoothed(bodyOf(model, e)))
+    if (isSmoothed(model.bodyOf(e)))
       nodes.insert(nodes.end(), model.triangles.nodes[e.value].begin(),
                    model.triangles.nodes[e.value].end());
   sortUnique(nodes);
   std::vector<NodeSum> sums(nodes.size());
   double sum = 0;
   for (const ElementId e : elements) {
-    if (!isSmoothed(bodyOf(model, e))) continue;
+    if (!isSmoothed(model.bodyOf(e))) continue;
     NodeSum one;
     one.add(model, e, dt);
     for (const NodeId node : model.triangles.nodes[e.value])
@@ -129,7 +121,7 @@ void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>&
   if (!anySmoothed(model)) return;
   const std::vector<SplitGradient> means = smoothedMeans(model);
   forEachSmoothed(model, [&](ElementId element) {
-    const ElasticMaterial& material = bodyOf(model, element).material;
+    const ElasticMaterial& material = model.bodyOf(element).material;
     const Matrix2 f = deformationGradient(model, element);
     const SplitGradient split = splitGradient(f);
     const double own = (1 - kSmoothedShare) * material.shearModulus();
@@ -154,7 +146,7 @@ void setSmoothedEnergies(const Model& model, std::vector<double>& energies) {
     energy = twiceOwnEnergy(model, element, 0) / 2;
     for (const NodeId node : model.triangles.nodes[element.value])
       energy += volumeOf(model, element) / 3 *
-                nodeEnergyDensity(means[node.value], bodyOf(model, element).material);
+                nodeEnergyDensity(means[node.value], model.bodyOf(element).material);
   });
 }
 

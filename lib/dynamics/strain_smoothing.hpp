@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/node_sums.hpp"
 #include "dynamics/smoothed_kernel.hpp"
 
 namespace yadefrag {
@@ -21,7 +22,9 @@ class StrainSmoothing {
 
   void rebuild(const ElementChunks& elements);
   /// Must be called after a split of nodes.
-  void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned);
+  void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned) {
+    gradient_.follow(elements, abandoned);
+  }
   [[nodiscard]] bool isOn() const { return !distortion_.empty(); }
 
   /// First pass, for one chunk; positions by local number. Returns false if an element is flat,
@@ -29,18 +32,15 @@ class StrainSmoothing {
   bool sum(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
            const Vec2* position, std::vector<ElementRange>& stressed);
   /// Then the sums of nodes in several chunks.
-  void sumShared(const ElementChunks& elements, std::size_t row);
+  void sumShared(const ElementChunks& elements, std::size_t row) {
+    gradient_.sumShared(elements, row);
+  }
   /// Second pass, for one chunk; `mass` (kg) by node.
   void addForces(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
                  const std::vector<double>& mass, Room& room, Vec2* force);
 
  private:
-  // Sums with a third of the volumes (m³), by chunk and local number; after sumShared stresses
-  // (Pa).
-  std::vector<SplitGradient> gradient_;
-  // For nodes in several chunks: a chunk's part and the whole sum, both by number of the partial
-  // sum.
-  std::vector<SplitGradient> partialGradient_, wholeGradient_;
+  NodeSums<SplitGradient> gradient_;  // with a third of the volumes (m³), then stresses (Pa)
   std::vector<DistortionLanes> distortion_;
 };
 

@@ -45,6 +45,7 @@ struct ElasticTrial {
   double across;          ///< 3 e₃₃
   double volume;          ///< J = λ det Fₑ
 
+  ElasticTrial() = default;
   [[gnu::always_inline]] ElasticTrial(const Matrix2& f, double thickness)
       : zx(f.xx + f.yy), zy(f.yx - f.xy), wx(f.xx - f.yy), wy(f.yx + f.xy) {
     const double squaredZ = zx * zx + zy * zy, squaredW = wx * wx + wy * wy;
@@ -74,10 +75,29 @@ struct ElasticTrial {
   }
 };
 
+/// e:e' of two deviators in the same frame.
+[[gnu::always_inline]] inline double product(const ElasticTrial& a, const ElasticTrial& b) {
+  // u = w z̄/|z|²
+  const double ax = a.wx * a.zx + a.wy * a.zy, ay = a.wy * a.zx - a.wx * a.zy;
+  const double bx = b.wx * b.zx + b.wy * b.zy, by = b.wy * b.zx - b.wx * b.zy;
+  const double part = a.part * a.inverseZ * b.part * b.inverseZ;
+  return a.across * b.across / 6 + part * (ax * bx + ay * by) / 2;
+}
+
 /// κ/2 (J² − 1) = J U'(J), the mean of τ.
 [[gnu::always_inline]] inline double meanStress(double volume, double bulk) {
   return bulk / 2 * (volume * volume - 1);
 }
+
+/// (Pa) The stress across the plane if the part `kept` of the deviator remains, and Newton's step
+/// that makes it 0, by which the logarithm of the thickness decreases.
+struct StressAcross {
+  double stress, step;
+
+  [[gnu::always_inline]] StressAcross(const ElasticTrial& t, double kept, const SolidModuli& m)
+      : stress(meanStress(t.volume, m.bulk) + 2 * m.shear * kept * t.across / 3),
+        step(stress / (m.bulk * t.volume * t.volume + 4. / 3 * m.shear * kept)) {}
+};
 
 /// (Pa) τ in the plane.
 struct PlaneStress {

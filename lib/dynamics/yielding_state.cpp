@@ -31,10 +31,6 @@ Corners cornersOf(const Model& model, ElementId element, const std::vector<Vec2>
 
 TriangleEdges edgesOf(const Corners& x) { return {x[1] - x[0], x[2] - x[0]}; }
 
-double volumeOf(const Model& model, ElementId element) {
-  return model.triangles.area[element.value] * model.bodyOf(element).thickness;
-}
-
 /// An element at xⁿ and at xⁿ⁻¹.
 struct Pair {
   ElementId element;

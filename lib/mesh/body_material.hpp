@@ -1,6 +1,7 @@
 #pragma once
 // The material of a triangle, and the assignment of materials to the triangles of a body.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -37,6 +38,24 @@ struct MaterialPlaces {
 /// One material that bounds all materials of a body: the elasticity of the first one, and bounds
 /// for fracture: the least strength (joints included), shear factor and friction. The strength is 0
 /// if no edge can crack.
-[[nodiscard]] BodyMaterial boundOf(const MaterialPlaces& materials, const BrittlePlaces& places);
+[[nodiscard]] inline BodyMaterial boundOf(const MaterialPlaces& materials,
+                                          const BrittlePlaces& places) {
+  BodyMaterial bound = materials.materials.front();
+  bound.brittle = {};
+  bound.brittle.shearFactor = std::numeric_limits<double>::infinity();
+  double least = kUnbreakable;
+  bool cracks = !places.joints.empty();
+  for (const BodyMaterial& one : materials.materials) {
+    bound.friction = std::min(bound.friction, one.friction);
+    bound.brittle.shearFactor = std::min(bound.brittle.shearFactor, one.brittle.shearFactor);
+    if (!one.brittle.cracks()) continue;
+    cracks = true;
+    least = std::min(least, one.brittle.tensileStrength);
+  }
+  for (const JointEdge& joint : places.joints)
+    if (joint.strength > 0) least = std::min(least, joint.strength);
+  if (cracks) bound.brittle.tensileStrength = least;
+  return bound;
+}
 
 }  // namespace yadefrag

@@ -19,6 +19,17 @@ struct Polygon {
 /// Ends (m) of straight lines on which sides of triangles must lie.
 using JointLines = std::vector<std::array<Vec2, 2>>;
 
+/// Arrangement of the nodes inside a body.
+enum class NodeLayout : std::uint8_t {
+  kRows,       ///< rows along the boundary: nearly equilateral triangles, edges in few directions
+  kScattered,  ///< random with a minimum distance: edges in all directions
+};
+
+struct MeshLayout {
+  NodeLayout nodes = NodeLayout::kRows;
+  std::uint64_t seed = 0;  ///< of the random positions
+};
+
 /// Node and triangle numbers follow the Lebesgue curve: neighbours are near in memory.
 struct TriangleMesh {
   std::vector<Vec2> nodes;                              ///< m

@@ -1,4 +1,4 @@
-#include "meshing/delaunay.hpp"
+#include "meshing/mesh_stages.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "meshing/interior_front.hpp"
+#include "meshing/mesh_stages.hpp"
 
 #include <algorithm>
 #include <cmath>

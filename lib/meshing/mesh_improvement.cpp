@@ -1,4 +1,4 @@
-#include "meshing/mesh_improvement.hpp"
+#include "meshing/mesh_stages.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,10 +9,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "meshing/curve_numbering.hpp"
-#include "meshing/delaunay.hpp"
-#include "meshing/divided_boundary.hpp"
-#include "meshing/interior_front.hpp"
-#include "meshing/mesh_improvement.hpp"
+#include "meshing/mesh_stages.hpp"
 #include "meshing/triangle_quality.hpp"
 
 namespace yadefrag {

@@ -5,7 +5,6 @@
 
 #include "mesh/triangle_mesh.hpp"
 #include "meshing/joint_lines.hpp"
-#include "meshing/mesh_layout.hpp"
 #include "meshing/size_field.hpp"
 
 namespace yadefrag {

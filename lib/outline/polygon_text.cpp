@@ -1,4 +1,4 @@
-#include "outline/polygon_text.hpp"
+#include "outline/polygon.hpp"
 
 #include <fmt/core.h>
 

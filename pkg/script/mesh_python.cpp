@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "dynamics/mesh_step.hpp"
+#include "dynamics/critical_time_step.hpp"
 #include "meshing/structured.hpp"
 #include "meshing/triangle_quality.hpp"
 #include "outline/polygon.hpp"
-#include "outline/polygon_text.hpp"
-#include "rigid/rigid_section.hpp"
+#include "rigid/rigid_outlines.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
 #include "script/definitions.hpp"

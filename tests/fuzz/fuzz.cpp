@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "outline/polygon_text.hpp"
+#include "outline/polygon.hpp"
 #include "step/eventful_scenes.hpp"
 
 using namespace yadefrag;

@@ -12,7 +12,6 @@
 #include "mesh/triangle_mesh.hpp"
 #include "outline/convex_hull.hpp"
 #include "outline/polygon.hpp"
-#include "outline/polygon_text.hpp"
 #include "outline/polygons.hpp"
 #include "outline/snap.hpp"
 

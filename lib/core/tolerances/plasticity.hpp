@@ -13,15 +13,9 @@ inline constexpr double kReturned = 1e-11;
 /// the interval that contains the solution.
 inline constexpr int kReturns = 60;
 
-/// (ratio) Change of Δp by a step of the vector loops' iteration with which they count as
-/// converged: the error falls with its third power, to 10⁻¹¹ of Δp.
+/// (ratio) Change of Δp by a step of the iteration with which it counts as converged: the error
+/// falls with its third power, to 10⁻¹¹ of Δp.
 inline constexpr double kLaneReturned = 2e-4;
-
-/// (ratio) Largest change of Δp for which seven terms of a series give its logarithm to 10⁻¹⁴.
-inline constexpr double kLogarithmic = .2;
-
-/// (ratio) Largest change of p₀ + p for which six terms of a binomial series give Y₀ to 10⁻¹⁴.
-inline constexpr double kBinomial = .005;
 
 /// (logarithmic strain) Largest change in a step for which the short series of `expOfTiny` is exact
 /// to rounding.
