@@ -11,8 +11,7 @@ import numpy as np
 
 import scenes
 import yadefrag  # noqa: F401  adds CurveLoop
-from heaps import packing
-from scenes import O, w
+from scenes import O, packing, w
 from yade import utils
 from yade.minieigenHP import Vector3
 

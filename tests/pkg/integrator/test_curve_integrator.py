@@ -9,8 +9,7 @@ from yade import utils
 from yade.minieigenHP import Matrix3, Quaternion, Vector3
 
 import scenes
-from heaps import heap, state
-from scenes import O
+from scenes import O, heap, state
 
 
 def engines(name, **settings):

@@ -10,8 +10,7 @@ from yade import utils
 from yade.minieigenHP import Matrix3
 
 import scenes
-from heaps import heap, packing, state
-from scenes import O
+from scenes import O, heap, packing, state
 
 NAMES = 'InteractionLoop', 'CurveLoop'
 

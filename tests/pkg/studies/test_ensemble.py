@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import ensemble_scenes as scenes
-import mpi_processes
+import project
 import tradeoff_scenes
 import yadefrag
 from project import ROOT, yadeCommand
@@ -176,7 +176,7 @@ kScript = '''
 import os, sys
 sys.path.insert(0, %r)
 import ensemble_scenes as scenes
-import mpi_processes
+import project
 from yadefrag import ensemble
 if __name__ == '__main__':
     %s
@@ -200,7 +200,7 @@ def byScript(folder, opening):
     with open(file, 'w') as out:
         out.write(kScript % (str(ROOT / 'tests' / 'pkg' / 'helpers'), opening))
     done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, timeout=300, env=mpi_processes.environment('ensemble'))
+                          text=True, timeout=300, env=project.environment('ensemble'))
     assert kFound in done.stdout, done.stdout[-3000:]
 
 

@@ -11,7 +11,7 @@ import tempfile
 import pytest
 import yade
 
-import mpi_processes
+import project
 from project import ROOT, yadeCommand
 
 kHere = os.path.dirname(os.path.abspath(__file__))
@@ -33,7 +33,7 @@ def run(ranks, collider, scene, *arguments):
     """What each process reports, by rank."""
     script = [*yadeCommand(), os.path.join(kHere, 'mpi_scene.py')]
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
-        code, output = mpi_processes.run(
+        code, output = project.run(
             ranks, [*script, collider, folder, scene, *arguments], folder, kLimit)
         reports = []
         for name in sorted(n for n in os.listdir(folder) if n[:-5].isdigit()):

@@ -12,8 +12,7 @@ from yade import utils
 from yade.minieigenHP import Vector3
 
 import scenes
-from heaps import state
-from scenes import O
+from scenes import O, state
 
 
 class Grain(w.Body):
