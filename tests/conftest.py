@@ -1,7 +1,7 @@
 """Shared set-up of the tests that run inside yade.
 
 A test with the argument `collider` runs with LebesgueCollider, or with each class of YADEFRAG_COLLIDERS (comma
-separated), so that another one, also YADE's InsertionSortCollider, can be put through the same tests.
+separated), so that another one can be put through the same tests.
 """
 import os
 import subprocess
@@ -27,7 +27,6 @@ class ColliderMaker:
 
     def __init__(self, name):
         self.name = name
-        self.isRival = name == 'InsertionSortCollider'
 
     def __call__(self, functors=None, **attributes):
         import scenes
@@ -43,22 +42,10 @@ def pytest_generate_tests(metafunc):
         metafunc.parametrize('colliderName', kColliders)
 
 
-def pytest_configure(config):
-    config.addinivalue_line(
-        'markers', 'rivalFails(reason): InsertionSortCollider is known to fail here; ours must not')
-    config.addinivalue_line(
-        'markers', 'rivalAborts(reason): InsertionSortCollider takes the process down here')
-
-
 @pytest.fixture
-def collider(colliderName, request):
+def collider(colliderName):
     if yade is None:
         pytest.fail('this test runs inside yade: scripts/yade -n -x tests/pkg/inside.py')
-    mark = request.node.get_closest_marker('rivalFails')
-    if mark and colliderName == 'InsertionSortCollider':
-        request.applymarker(pytest.mark.xfail(reason=mark.args[0], strict=False))
-    if request.node.get_closest_marker('rivalAborts') and colliderName == 'InsertionSortCollider':
-        pytest.skip('an assertion inside InsertionSortCollider ends the process')
     return ColliderMaker(colliderName)
 
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "extremes/limits.hpp"
-#include "step/run_result.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"

@@ -9,9 +9,9 @@
 #include <random>
 #include <string>
 
+#include "core/checks.hpp"
 #include "core/tolerances/step.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

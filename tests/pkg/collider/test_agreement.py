@@ -90,7 +90,7 @@ def testPotentialPairsCoverTheBoxes(collider):
     addSpheres(rng.uniform(0, 1, (150, 3)), rng.uniform(.02, .06, 150))
     O.bodies.append(utils.facet([(0, 0, .3), (1, 0, .4), (.3, 1, .5)]))
     O.bodies.append(utils.wall(.5, axis=1))
-    setEngines(collider(verletDist=0, **({} if collider.isRival else dict(trueHalo=False))))
+    setEngines(collider(verletDist=0, trueHalo=False))
     O.step()
     low = np.array([b.bound.min for b in O.bodies])
     high = np.array([b.bound.max for b in O.bodies])

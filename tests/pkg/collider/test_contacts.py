@@ -147,7 +147,6 @@ def testFewBodies(collider):
     assert stepAndCheck(steps=2) == 2
 
 
-@pytest.mark.rivalFails('a body put back near its old place, without redirection, is not found')
 @pytest.mark.parametrize('redirection', [False, True])
 def testBodiesComeAndGo(collider, redirection):
     """Appended, erased and put back at an erased id, at any step."""
@@ -191,7 +190,6 @@ def testInsertBeyondTheEnd(collider):
     assert stepAndCheck(steps=2) == 2
 
 
-@pytest.mark.rivalFails('its sort lists outlive O.bodies.clear()')
 def testClearedBodies(collider):
     rng = np.random.default_rng(17)
     centres, radii = uniform(rng, 60)

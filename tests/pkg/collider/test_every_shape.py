@@ -63,8 +63,6 @@ def compare(functor, wanted, found, mayBeLate):
 @pytest.mark.parametrize('verletDist', kSettings)
 @pytest.mark.parametrize('functor', sorted(kScenes))
 def testContactsOfEveryFunctor(collider, functor, verletDist):
-    if collider.isRival:
-        pytest.skip('it is the yardstick')
     if not isHere(functor):
         pytest.skip(f'this YADE has no {functor}')
     rivals, ours = settings(functor, verletDist)

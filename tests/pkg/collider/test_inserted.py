@@ -85,7 +85,6 @@ def onWall(place):
     return addPFacet(triangle(.3, .05) + place, False)
 
 
-@pytest.mark.rivalFails('it takes the origin for the box of a body without a bound')
 @pytest.mark.parametrize('search', kSearches, ids=str)
 @pytest.mark.parametrize('place', kPlaces, ids=str)
 @pytest.mark.parametrize('build', [onPFacet, onMovingPFacet, edgeOnEdge, onConnection, onWall],
@@ -95,7 +94,6 @@ def testPFacetsRebound(collider, build, search, place):
     assert all(v > -4.9 for v in speeds) and np.mean(speeds) > 0, speeds
 
 
-@pytest.mark.rivalFails('it watches the first node of a PFacet alone')
 @pytest.mark.parametrize('verletDist', [0, .01, .1])
 def testPFacetThatTurnsAboutItsFirstNode(collider, verletDist):
     """The first node stays; the others carry the PFacet into a sphere at rest."""

@@ -102,7 +102,6 @@ def testWallsDoNotMeetEachOther(collider):
     assert all(math.isfinite(x) for x in O.bodies[3].state.pos)
 
 
-@pytest.mark.rivalFails('its strides see only positions, not rotation')
 @pytest.mark.parametrize('shape', ['facet', 'box'])
 def testSpinningBody(collider, shape):
     """A body that turns about its own centre into a sphere at rest must be found."""

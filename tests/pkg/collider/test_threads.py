@@ -31,7 +31,6 @@ def dump(name, threads, scenes=tuple(kScenes)):
     return dict(zip(scenes, map(json.loads, lines)))
 
 
-@pytest.mark.rivalFails('its parallel sort makes interactions in another order')
 @pytest.mark.parametrize('scene', kScenes)
 def testThreads(collider, scene):
     one, two, three = (dump(collider.name, threads)[scene] for threads in (1, 2, 3))

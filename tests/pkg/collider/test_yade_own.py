@@ -108,10 +108,10 @@ def testCheckScript(collider, script):
     names = [x for x in kQuickChecks + kLongChecks if not reasonToSkip(x)]
     result = outcome(collider.name, 'checks', names)[script]
     checkResult(collider, result)
-    if script not in kNoCollider and not collider.isRival:
+    if script not in kNoCollider:
         assert result['made'] + result['found'] > 0
         assert (result['runs'] > 0) != (script in kNoRun)
-    if script in kFoundChecks and not collider.isRival:
+    if script in kFoundChecks:
         assert result['found'] > 0
 
 
@@ -173,8 +173,6 @@ def testExample(collider, script):
     """The contacts are those that YADE's collider has when it searches in every step.
 
     With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
-    if collider.isRival and script.endswith('periodicSandPile.py'):
-        pytest.xfail('with strides it loses contacts with the floor')
     every = [os.path.join(kExampleFolder, s) for s in (kLongExamples if script in kLongExamples else kShortExamples)]
     path = os.path.join(kExampleFolder, script)
     expected = outcome('InsertionSortCollider', 'reference', every)[path]

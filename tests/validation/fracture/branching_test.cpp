@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/checks.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/checks.hpp"
 #include "fracture/laboratory.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <string>
 
+#include "core/checks.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
