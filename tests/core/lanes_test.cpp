@@ -138,16 +138,17 @@ TEST(LaneMath, Powers) {
   EXPECT_EQ(powerOf(0, .3), 0);
 }
 
-constexpr std::size_t kCount = 8 * tolerance::kMinItemsPerThread;
+constexpr std::size_t kManyItems = 8 * tolerance::kMinItemsPerThread;
 
 TEST(Parallel, PartsCoverTheRange) {
   for (const int threads : {1, 2, 3, 8}) {
-    std::vector<int> seen(kCount);
-    const int parts = forEachPart(kCount, threads, [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t i = begin; i < end; ++i) ++seen[i];
-    });
+    std::vector<int> seen(kManyItems);
+    const int parts =
+        forEachPart(kManyItems, threads, [&](std::size_t begin, std::size_t end, int) {
+          for (std::size_t i = begin; i < end; ++i) ++seen[i];
+        });
     EXPECT_EQ(parts, threads);
-    EXPECT_EQ(seen, std::vector<int>(kCount, 1));
+    EXPECT_EQ(seen, std::vector<int>(kManyItems, 1));
   }
 }
 
@@ -163,10 +164,11 @@ TEST(Parallel, FewItemsRunOnThreadsIfTestsWantIt) {
 TEST(Parallel, EachItemIsDoneOnce) {
   for (const int threads : {1, 2, 3, 8}) {
     std::vector<int> seen(1000);
-    forEachItem(seen.size(), kCount, threads, [&](std::size_t item) { ++seen[item]; });
+    forEachItem(seen.size(), kManyItems, threads, [&](std::size_t item) { ++seen[item]; });
     EXPECT_EQ(seen, std::vector<int>(1000, 1));
-    EXPECT_THROW(forEachItem(1000, kCount, threads, [](std::size_t) { throw std::bad_alloc(); }),
-                 std::bad_alloc);
+    EXPECT_THROW(
+        forEachItem(1000, kManyItems, threads, [](std::size_t) { throw std::bad_alloc(); }),
+        std::bad_alloc);
   }
 }
 
@@ -175,14 +177,14 @@ TEST(Parallel, ErrorsReachTheCaller) {
   for (const int threads : {1, 2, 3, 8}) {
     SCOPED_TRACE(threads);
     const auto fail = [](std::size_t, std::size_t, int) { throw std::bad_alloc(); };
-    EXPECT_THROW(forEachPart(kCount, threads, fail), std::bad_alloc);
+    EXPECT_THROW(forEachPart(kManyItems, threads, fail), std::bad_alloc);
   }
 }
 
 TEST(Parallel, TheFirstPartsErrorIsThrownAfterAllHaveEnded) {
   std::atomic<int> ended = 0;
   try {
-    forEachPart(kCount, 4, [&](std::size_t, std::size_t, int part) {
+    forEachPart(kManyItems, 4, [&](std::size_t, std::size_t, int part) {
       ++ended;
       if (part % 2 == 1) throw std::runtime_error(std::to_string(part));
     });

@@ -295,25 +295,6 @@ TEST(Separation, DoesNotDependOnTheAxes) {
     }
 }
 
-TEST(Separation, UniformTensionActsOnEveryLineAlike) {
-  for (double angle = 0; angle < 6.3; angle += .1) {
-    const Traction t = tractionOn({7, 7, 0}, direction(angle));
-    EXPECT_NEAR(effectiveTraction(t.normal, t.shear, kShearProof, kFriction), 7, 1e-14);
-  }
-}
-
-TEST(Separation, UniaxialTensionActsMostOnLinesAcrossIt) {
-  double most = 0;
-  double at = 0;
-  for (double angle = -1.5; angle < 1.55; angle += .01) {
-    const Traction t = tractionOn({4, 0, 0}, direction(angle));
-    const double effective = effectiveTraction(t.normal, t.shear, kShearProof, kFriction);
-    if (effective > most) most = effective, at = angle;
-  }
-  EXPECT_NEAR(at, 0, 1e-9);
-  EXPECT_NEAR(most, 4, 1e-14);
-}
-
 TEST(Separation, EffectiveTractionIsTheFormula) {
   EXPECT_EQ(effectiveTraction(5, 0, kShearProof, kFriction), 5);
   EXPECT_EQ(effectiveTraction(3, 4, kEven, kFriction), 5);

@@ -87,13 +87,6 @@ def testBadBodiesThatDoNotCount(collider):
     assert not any({5, 6} & set(p) for p in scenes.allPairs())
 
 
-def testInfiniteWallIsNoError(collider):
-    start(collider)
-    O.bodies.append(utils.wall(.5, axis=1))
-    O.step()
-    assert any(20 in p for p in scenes.realPairs())
-
-
 @pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
 def testVerletDistIsFinite(collider, value):
     engine = start(collider)

@@ -4,8 +4,7 @@ import pytest
 from yade import utils
 from yade.minieigenHP import Vector3
 import scenes
-from oracle import contacts, masked
-from scenes import addSpheres, O, setEngines, stepAndCheck
+from scenes import addSpheres, contacts, masked, O, setEngines, stepAndCheck
 
 
 def uniform(rng, n, dim=3):
@@ -274,18 +273,6 @@ def testEnlargedBounds(collider):
     setEngines(collider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.5)], verletDist=0))
     O.step()
     assert scenes.allPairs() == {(0, 1)}
-
-
-def testFarPairsAreErased(collider):
-    """An interaction that is no longer near goes, by the collider's own hand."""
-    ids = addSpheres([(0, 0, 0), (1, 0, 0)], [.6, .6])
-    setEngines(collider(verletDist=0))
-    O.step()
-    assert scenes.allPairs() == {(0, 1)}
-    O.bodies[ids[1]].state.pos = Vector3(50, 0, 0)
-    O.step()
-    O.step()
-    assert scenes.allPairs() == set()
 
 
 def testRealPairsAreKept(collider):

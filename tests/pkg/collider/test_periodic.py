@@ -125,25 +125,6 @@ def testShearOfBodiesAtRest(collider):
     assert stepAndCheck(steps=30) > 50
 
 
-@pytest.mark.parametrize('cell', ['cubic', 'long'])
-def testSamePairsAsTheRival(collider, cell):
-    """Real pairs with their cellDist, and the order of ids, over a run with real forces."""
-    def run(make):
-        scenes.clear()
-        gas(kCells[cell], n=80, periods=2, speed=.02)
-        O.dt = 1e-3
-        for body in O.bodies:
-            body.state.blockedDOFs = ''
-            body.state.vel *= 100
-        setEngines(make(verletDist=.01))
-        history = []
-        for _ in range(60):
-            O.step()
-            history.append((sorted((i.id1, i.id2, tuple(i.cellDist)) for i in O.interactions)))
-        return history
-    assert run(collider.rival) == run(collider)
-
-
 def testCellDistOfExistingInteractions(collider):
     """A pair that is near for many steps keeps its cellDist while both drift through a period."""
     O.periodic = True

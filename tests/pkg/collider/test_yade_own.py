@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 import yade.config
 
-import test_threads
+import test_lifecycle
 from project import yadeCommand
 
 kHere = os.path.dirname(os.path.abspath(__file__))
@@ -18,7 +18,7 @@ kExampleFolder = '/usr/share/doc/yade/examples'
 kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
-# checkColliderConstantness.py reads the rival's sort lists (test_threads.py stands for it);
+# checkColliderConstantness.py reads the rival's sort lists (test_lifecycle.py stands for it);
 # checkVTKRecorder.py compares interactions in the order of YADE's collider (testRecordedContacts stands for it);
 # YADE itself skips checkCapillaryEngineStandalone.py, which fails with its own collider, and
 # DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step, and
@@ -130,7 +130,7 @@ def testCheckScriptWithLoopAndIntegrator(script):
 def recorded(maker, folder):
     """{array: values} of the contacts of the scene of YADE's checkVTKRecorder.py."""
     os.mkdir(folder)
-    engine = test_threads.build(maker, periodic=False)
+    engine = test_lifecycle.build(maker, periodic=False)
     # As in the check; without multiblock, VTK's writer aborts with any collider.
     yade.wrapper.O.engines = yade.wrapper.O.engines + [yade.wrapper.VTKRecorder(
         fileName=folder + '/', recorders=['all'], firstIterRun=10, iterPeriod=2000, ascii=True, multiblock=True)]

@@ -1,4 +1,4 @@
-"""Scenes for test_threads.py: `yade -jN threads_scene.py COLLIDER SCENE...` prints a line of JSON with the bits of each."""
+"""Scenes for test_lifecycle.py: `yade -jN threads_scene.py COLLIDER SCENE...` prints a line of JSON with the bits of each."""
 import hashlib
 import json
 import os

@@ -12,7 +12,7 @@ import pytest
 import yadefrag
 from yade import wrapper as w
 from fe_impact import cracks, engines
-from fe_scene import solverOfScene
+from fe_scene import ready, reloaded
 
 O = builtins.O
 kYoung, kPoisson, kStrength, kDepth = 20e9, .2, 5e6, .1
@@ -43,8 +43,7 @@ def beamLoad(choice, perZone):
     wanted = .897 * (kPlane * kEnergy)**.5 * kDepth**1.5 / (4 * kDepth * shape)
     period = 35 * kDepth / (kYoung / 2500)**.5
     speed = 2.6 * 2 * 8 / kPlane * wanted / (5 * period)
-    O.engines = yadefrag.engines(fe)
-    O.dt = .8 * fe.criticalTimeStep()
+    ready(fe, .8)
     fe.damping = 1 / period
     top = np.nonzero((abs(fe.nodes[:, 0]) < 1e-6) & (abs(fe.nodes[:, 1] - kDepth) < 1e-9))[0]
     fe.prescribe(top, vy=[(0, 0), (period, -speed)])
@@ -82,8 +81,7 @@ def test_aBarBreaksAtTheStrengthThatItHas(choice, strength):
     with pytest.warns(UserWarning, match='cohesive zone'):
         fe.addPolygon(yadefrag.rectangle((0, 0), (2 * kDepth, kDepth)), size=kZone, material='rock')
     ends = [np.nonzero(abs(fe.nodes[:, 0] - x) < 1e-9)[0] for x in (0, 2 * kDepth)]
-    O.engines = yadefrag.engines(fe)
-    O.dt = .8 * fe.criticalTimeStep()
+    ready(fe, .8)
     crossing = 2 * kDepth / (kYoung / 2500)**.5
     fe.damping = 2 / crossing
     rate = kStrength / kPlane * 2 * kDepth / (100 * crossing) / 2
@@ -119,8 +117,7 @@ def test_aFineMeshIsLeftAsItIs():
             warnings.filterwarnings('ignore', '.*more than half of the body')
             fe.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=2 * kZone, material='rock',
                           velocity=lambda x, y: (20 * x, 0))
-        O.engines = yadefrag.engines(fe)
-        O.dt = .8 * fe.criticalTimeStep()
+        ready(fe, .8)
         O.run(200, True)
         positions.append(fe.nodes.tobytes())
     assert len(set(positions)) == 1
@@ -231,10 +228,7 @@ def test_listsArraysAndFunctionsAreTheSame(folder):
         engines(solver, factor=.4)
         O.run(100, True)
         if reload:
-            O.save(os.path.join(folder, 'bar.yade'))
-            O.reset()
-            O.load(os.path.join(folder, 'bar.yade'))
-            solver = solverOfScene()
+            solver = reloaded(os.path.join(folder, 'bar.yade'))
         O.run(100, True)
         return solver.nodes, solver.energy, solver.materialNumbers, solver.criticalTimeStep()
 

@@ -1,5 +1,5 @@
 """CurveIntegrator in the place of YADE's NewtonIntegrator: the same bits, whatever bodies the scene has.
-Threads: test_threads.py."""
+Threads: test_lifecycle.py."""
 import os
 
 import numpy as np

@@ -1,5 +1,5 @@
 """CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has.
-Threads: test_threads.py."""
+Threads: test_lifecycle.py."""
 import os
 
 import numpy as np

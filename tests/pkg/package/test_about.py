@@ -13,7 +13,7 @@ import sys
 import pytest
 import yadefrag
 from yade import config, system, wrapper
-from yadefrag import _yadefrag, support
+from yadefrag import support
 
 O = builtins.O
 PACKAGE = pathlib.Path(yadefrag.__file__).absolute().parent.parent

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, impact, run, steps
+from fe_scene import fe, finder, impact, reloaded, run, steps
 from yade import wrapper as w
 
 O = builtins.O
@@ -143,10 +143,7 @@ def test_bodiesThatOverlapAreNotAdded(folder):
     assert added(made, (1, 0)) == first + 1
     run(made)
     steps(5)
-    O.save(folder + '/scene.xml')
-    O.reset()
-    O.load(folder + '/scene.xml')
-    [made] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    made = reloaded(folder + '/scene.xml')
     with pytest.raises(ValueError, match='overlaps body 0 at'):
         made.addPolygon(yadefrag.circle((.5, .5), .1, 8), size=.1, material='m')
     added(made, (3, 0))

@@ -194,7 +194,7 @@ TEST(Strip, SlidingCrackHasItsOwnZone) {
 }
 
 constexpr double kEdge = .1;                // m
-constexpr Vec2 kTip{.05, .025};             // m
+constexpr Vec2 kNotchTip{.05, .025};        // m
 constexpr double kRayleigh = 2800;          // m/s
 constexpr double kSpeed = 16.5;             // m/s
 constexpr double kStrength = 1.07e9;        // Pa
@@ -213,9 +213,9 @@ void addPlate(World& world, const Plate& plate) {
                                           {kEdge, 0},
                                           {kEdge, kEdge},
                                           {0, kEdge},
-                                          {0, kTip.y + slit},
-                                          kTip,
-                                          {0, kTip.y - slit}},
+                                          {0, kNotchTip.y + slit},
+                                          kNotchTip,
+                                          {0, kNotchTip.y - slit}},
                                          {}},
                                         size, {NodeLayout::kScattered, plate.seed});
   BodySpec spec;
@@ -226,7 +226,7 @@ void addPlate(World& world, const Plate& plate) {
   spec.velocity.assign(mesh.nodes.size(), {});
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (mesh.nodes[i].y < 1e-9) spec.held[i] |= kHeldY;
-    if (mesh.nodes[i].x > 1e-9 || mesh.nodes[i].y > kTip.y) continue;
+    if (mesh.nodes[i].x > 1e-9 || mesh.nodes[i].y > kNotchTip.y) continue;
     spec.held[i] |= kHeldX;
     spec.velocity[i] = {kSpeed, 0};
   }
@@ -242,9 +242,9 @@ struct Crack {
 Crack crackOf(const World& world) {
   Crack crack;
   double along = 0, up = 0;
-  Vec2 top = kTip;
+  Vec2 top = kNotchTip;
   for (const CrackLine& edge : cracksOf(world, true)) {
-    const Vec2 from = edge.middle() - kTip;
+    const Vec2 from = edge.middle() - kNotchTip;
     if (from.y < 0 || (from.x < .01 && from.y < .005)) continue;
     along += from.x * from.y;
     up += from.y * from.y;
@@ -253,7 +253,7 @@ Crack crackOf(const World& world) {
   }
   constexpr double kDegrees = 180 / std::numbers::pi;
   crack.fit = std::atan2(up, along) * kDegrees;
-  crack.chord = std::atan2(top.y - kTip.y, top.x - kTip.x) * kDegrees;
+  crack.chord = std::atan2(top.y - kNotchTip.y, top.x - kNotchTip.x) * kDegrees;
   crack.highest = top.y;
   return crack;
 }
@@ -265,7 +265,7 @@ double angleOf(const Plate& plate) {
   const double start = world.kineticEnergy();
   const double dt = .8 * world.criticalTimeStep();
   constexpr double kWindow = 10e-6;  // s
-  double next = 0, former = kTip.y, fastest = 0;
+  double next = 0, former = kNotchTip.y, fastest = 0;
   while (world.time < 90e-6) {
     world.step(dt);
     if (world.time < next) continue;

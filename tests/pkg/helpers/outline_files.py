@@ -79,3 +79,23 @@ def read(file, tolerance=None, **more):
 def net(shapes):
     """Area of outlines without their holes."""
     return sum(area(outline) - sum(map(area, holes)) for outline, holes in shapes)
+
+
+def contour(count, isInside):
+    """Loops around the pixels whose middle is inside, the longest first, with a point at each corner of a pixel."""
+    def isIn(i, j):
+        return 0 <= i < count and 0 <= j < count and isInside(i + .5, j + .5)
+    after = {}
+    for i, j in np.ndindex(count, count):
+        if isIn(i, j):
+            corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+            beside = [(i, j - 1), (i + 1, j), (i, j + 1), (i - 1, j)]
+            after.update((corners[k], corners[(k + 1) % 4]) for k in range(4) if not isIn(*beside[k]))
+    loops = []
+    while after:
+        at, loop = min(after), []
+        while at in after:
+            loop.append(at)
+            at = after.pop(at)
+        loops.append(np.array(loop, dtype=float))
+    return sorted(loops, key=len, reverse=True)
