@@ -1,4 +1,4 @@
-"""Shared set-up of the tests that run inside yade.
+"""Shared set-up of the tests that run inside yade: scripts/yade -n -x tests/pkg/inside.py.
 
 A test with the argument `collider` runs with LebesgueCollider, or with each class of YADEFRAG_COLLIDERS (comma
 separated), so that another one can be put through the same tests.
@@ -13,13 +13,9 @@ import pytest
 # What tests of several folders share.
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pkg', 'helpers'))
 
-kColliders = os.environ.get('YADEFRAG_COLLIDERS', 'LebesgueCollider').split(',')
+import scenes  # noqa: E402
 
-try:
-    import yade
-    import yade.wrapper
-except ImportError:
-    yade = None
+kColliders = os.environ.get('YADEFRAG_COLLIDERS', 'LebesgueCollider').split(',')
 
 
 class ColliderMaker:
@@ -29,11 +25,9 @@ class ColliderMaker:
         self.name = name
 
     def __call__(self, functors=None, **attributes):
-        import scenes
         return scenes.makeCollider(self.name, functors, **attributes)
 
     def rival(self, functors=None, **attributes):
-        import scenes
         return scenes.makeCollider('InsertionSortCollider', functors, **attributes)
 
 
@@ -44,18 +38,12 @@ def pytest_generate_tests(metafunc):
 
 @pytest.fixture
 def collider(colliderName):
-    if yade is None:
-        pytest.fail('this test runs inside yade: scripts/yade -n -x tests/pkg/inside.py')
     return ColliderMaker(colliderName)
 
 
 @pytest.fixture(autouse=True)
 def freshScene(request):
     """Every test starts from, and leaves behind, an empty scene."""
-    if yade is None:
-        yield
-        return
-    import scenes
     scenes.clear()
     yield
     scenes.clear()

@@ -7,17 +7,12 @@ import pytest
 
 import yadefrag
 from fe_scene import fe, reloaded, run, steps
+from outline_files import areas
 from yade import wrapper as w
 
 O = builtins.O
 YOUNG, POISSON, DENSITY = 1e7, .3, 1000.  # fe_scene's material
 TENSOR = (-3e4, 1e4, 2e4)  # Pa
-
-
-def areas(solver):
-    a, b, c = solver.nodes[solver.triangles].transpose(1, 0, 2)
-    (x1, y1), (x2, y2) = (b - a).T, (c - a).T
-    return (x1 * y2 - x2 * y1) / 2
 
 
 def tractionsOn(solver, stress):

@@ -8,6 +8,7 @@ import pytest
 import yadefrag
 from fe_impact import brittle, cracks, engines
 from fe_scene import reloaded
+from outline_files import area
 from yade import wrapper as w
 
 O = builtins.O
@@ -130,10 +131,6 @@ def test_grainsAsJointsOfOneBody():
     engines(weak)
     O.run(20, True)
     assert weak.numCracks == 0
-
-
-def area(loop):
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(loop, loop[1:] + loop[:1])) / 2
 
 
 def test_grainsAsBodies():

@@ -9,6 +9,7 @@ import pytest
 import touching_outlines as touching
 import yadefrag
 from fe_impact import brittle, engines
+from outline_files import area
 from yade import wrapper as w
 
 O = builtins.O
@@ -29,11 +30,6 @@ def addAll(outlines, size, **given):
         for outline in outlines:
             solver.addPolygon(outline, size=size, material='m', **given)
     return solver, [str(one.message) for one in seen]
-
-
-def area(outline):
-    x, y = np.array(outline).T
-    return .5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
 
 
 # --- outlines that overlap by rounding

@@ -39,6 +39,12 @@ def area(loop):
     return loops.area(np.array(loop))
 
 
+def areas(mesh):
+    """Of the triangles of a mesh or of a solver."""
+    a, b, c = mesh.nodes[mesh.triangles].transpose(1, 0, 2)
+    return ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+
+
 def corners(loop):
     """The loop's points, rounded, from the lowest one on."""
     points = [(round(x, 9) + 0., round(y, 9) + 0.) for x, y in loop]

@@ -206,6 +206,10 @@ WRONG = [
     (lambda s: yadefrag.animate(s, 'a.gif', 2, 1, window=((0, 0), 1)), 'window is'),
     (lambda s: yadefrag.animate(s, 'a.gif', 2, 1, limits=3), 'limits is 3'),
     (lambda s: yadefrag.animate(s, 'a.gif', 2, 1, rate='fast'), "rate is 'fast'"),
+    *[(lambda s, change=change: yadefrag.animate(s, **{'file': 'a.gif', 'steps': 10, 'every': 5, **change}), words)
+      for change, words in ((dict(steps=0), 'steps is 0'), (dict(every=-1), 'every is -1'), (dict(rate=0), 'rate is 0'),
+                            (dict(file='a.avi'), "must end with '.gif'"), (dict(field='none'), "field is 'none'"),
+                            (dict(field=[1, 2]), 'field is an array'))],
     (lambda s: yadefrag.readPolygon(7), 'file is 7, it must be a path'), (lambda s: yadefrag.readPolygon(None), 'file is None'),
     (lambda s: setattr(s, 'loads', 'much'), "loads is 'much', it must be an array"),
     # The call itself.
