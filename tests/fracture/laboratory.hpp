@@ -45,6 +45,13 @@ struct Trial {
   }
 };
 
+/// With a notch from its left side to `tip`, whose mouth is a tenth of an element wide.
+inline Polygon plateWithNotch(Vec2 low, Vec2 high, Vec2 tip, double size) {
+  const double left = low.x, slit = size / 20;
+  const Vec2 mouth{left, tip.y + slit}, otherMouth{left, tip.y - slit};
+  return {{low, {high.x, low.y}, high, {left, high.y}, mouth, tip, otherMouth}, {}};
+}
+
 /// Nodes at the height `y` (m) of the stress-free shape.
 inline std::vector<NodeId> nodesAtHeight(const World& world, double y) {
   return nodesWhere(world.model.nodes, [y](Vec2 x) { return std::abs(x.y - y) < 1e-9; });

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "core/checks.hpp"
+#include "fracture/laboratory.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
 
@@ -207,17 +208,9 @@ struct Plate {
 };
 
 void addPlate(World& world, const Plate& plate) {
-  const double size = plate.size;
-  const double slit = size / 20;
-  const TriangleMesh mesh = triangulate({{{0, 0},
-                                          {kEdge, 0},
-                                          {kEdge, kEdge},
-                                          {0, kEdge},
-                                          {0, kNotchTip.y + slit},
-                                          kNotchTip,
-                                          {0, kNotchTip.y - slit}},
-                                         {}},
-                                        size, {NodeLayout::kScattered, plate.seed});
+  const TriangleMesh mesh =
+      triangulate(plateWithNotch({0, 0}, {kEdge, kEdge}, kNotchTip, plate.size), plate.size,
+                  {NodeLayout::kScattered, plate.seed});
   BodySpec spec;
   spec.material = {190e9, .3, 8000, false};
   spec.brittle.tensileStrength = kStrength;
