@@ -1,7 +1,7 @@
 """coarseMesh: what a body gets whose mesh does not resolve the cohesive zone. Several materials in a body, and what
 is between them, from Python.
 
-The beam is that of tests/fracture/notched_beam_test.cpp, on the mesh of addPolygon.
+The beam is that of tests/validation/fracture/notched_beam_test.cpp, on the mesh of addPolygon.
 """
 import builtins
 import os

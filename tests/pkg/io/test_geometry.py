@@ -134,10 +134,12 @@ def test_contoursOfPixels():
 
 
 def test_anyScale():
-    wanted = fewer(kPixelDisc, .8)
-    for scale in 2.**-300, 1e-3, .0254, 7, 2.**300:
-        found = fewer([loop * scale for loop in kPixelDisc], .8 * scale)
-        assert all(np.array_equal(one, other * scale) for one, other in zip(found, wanted))
+    small = contour(60, lambda x, y: math.hypot(x - 30, y - 30) < 27)
+    for loops, tolerance, scales in ((kPixelDisc, .8, (2.**-300, 2.**300)), (small, 1.5, (1e-3, .0254, 7))):
+        wanted = fewer(loops, tolerance)
+        for scale in scales:
+            found = fewer([loop * scale for loop in loops], tolerance * scale)
+            assert all(np.array_equal(one, other * scale) for one, other in zip(found, wanted))
 
 
 def test_holesStayInside():
