@@ -16,8 +16,8 @@ import time
 import numpy as np
 import pytest
 import yadefrag
-from example_runs import checkReports, figures, kHanging, kShort, kSmall, numbers, rows, run, start
-from project import ROOT, yadeCommand
+from project import (
+    checkReports, figures, kHanging, kShort, kSmall, numbers, ROOT, rows, run, start, yadeCommand)
 
 
 PAGES = [ROOT / 'README.md', *(ROOT / 'docs').glob('*.md'), *(ROOT / 'examples').glob('**/README.md')]

@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
-import touching_outlines as touching
+import outline_files as touching
 import yadefrag
 from fe_impact import brittle, engines
 from outline_files import area
