@@ -213,3 +213,5 @@ void registerScene(const Scene& scene, std::int64_t size, std::int64_t threads) 
 
 }  // namespace
 }  // namespace yadefrag
+
+BENCHMARK_MAIN();
