@@ -1,6 +1,6 @@
 """Writes the manual's reference from the docstrings: scripts/yade -n -x docs/make_reference.py FILE (scripts/docs calls it).
 
-tests/pkg/examples/test_docs.py tests it.
+tests/pkg/examples/test_fe_examples.py tests it.
 """
 
 import inspect

@@ -1,7 +1,7 @@
-"""Shared set-up of the tests that run inside yade.
+"""Shared set-up of the tests that run inside yade: scripts/yade -n -x tests/pkg/inside.py.
 
 A test with the argument `collider` runs with LebesgueCollider, or with each class of YADEFRAG_COLLIDERS (comma
-separated), so that another one, also YADE's InsertionSortCollider, can be put through the same tests.
+separated), so that another one can be put through the same tests.
 """
 import os
 import subprocess
@@ -13,13 +13,9 @@ import pytest
 # What tests of several folders share.
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pkg', 'helpers'))
 
-kColliders = os.environ.get('YADEFRAG_COLLIDERS', 'LebesgueCollider').split(',')
+import scenes  # noqa: E402
 
-try:
-    import yade
-    import yade.wrapper
-except ImportError:
-    yade = None
+kColliders = os.environ.get('YADEFRAG_COLLIDERS', 'LebesgueCollider').split(',')
 
 
 class ColliderMaker:
@@ -27,14 +23,11 @@ class ColliderMaker:
 
     def __init__(self, name):
         self.name = name
-        self.isRival = name == 'InsertionSortCollider'
 
     def __call__(self, functors=None, **attributes):
-        import scenes
         return scenes.makeCollider(self.name, functors, **attributes)
 
     def rival(self, functors=None, **attributes):
-        import scenes
         return scenes.makeCollider('InsertionSortCollider', functors, **attributes)
 
 
@@ -43,32 +36,14 @@ def pytest_generate_tests(metafunc):
         metafunc.parametrize('colliderName', kColliders)
 
 
-def pytest_configure(config):
-    config.addinivalue_line(
-        'markers', 'rivalFails(reason): InsertionSortCollider is known to fail here; ours must not')
-    config.addinivalue_line(
-        'markers', 'rivalAborts(reason): InsertionSortCollider takes the process down here')
-
-
 @pytest.fixture
-def collider(colliderName, request):
-    if yade is None:
-        pytest.fail('this test runs inside yade: scripts/yade -n -x tests/pkg/inside.py')
-    mark = request.node.get_closest_marker('rivalFails')
-    if mark and colliderName == 'InsertionSortCollider':
-        request.applymarker(pytest.mark.xfail(reason=mark.args[0], strict=False))
-    if request.node.get_closest_marker('rivalAborts') and colliderName == 'InsertionSortCollider':
-        pytest.skip('an assertion inside InsertionSortCollider ends the process')
+def collider(colliderName):
     return ColliderMaker(colliderName)
 
 
 @pytest.fixture(autouse=True)
 def freshScene(request):
     """Every test starts from, and leaves behind, an empty scene."""
-    if yade is None:
-        yield
-        return
-    import scenes
     scenes.clear()
     yield
     scenes.clear()

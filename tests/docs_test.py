@@ -1,6 +1,6 @@
 """The manual against the code: the sentences that it quotes exist, its links have targets.
 
-Run by scripts/docs, without YADE; the code of the pages is run by tests/pkg/examples/test_docs.py.
+Run by scripts/docs, without YADE; the code of the pages is run by tests/pkg/examples/test_fe_examples.py.
 """
 
 import pathlib

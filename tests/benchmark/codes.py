@@ -21,13 +21,16 @@ import statistics
 import sys
 import tempfile
 
-import numpy as np
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 
-import codes_lammps
-import codes_liggghts
-import codes_report
-import colliders
-import measured_tables
+import codes_lammps  # noqa: E402
+import codes_liggghts  # noqa: E402
+import colliders  # noqa: E402
+import measured_tables  # noqa: E402
+from measured_tables import digits  # noqa: E402
 
 SCENES = ['gas', 'packing', 'polydisperse', 'stirred', 'hopper']
 ENGINES = {  # collider, loop, integrator
@@ -146,6 +149,61 @@ def summary(rows):
     return found
 
 
+# --- table and plot
+
+NAMES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
+         'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
+PARTS = {'search': '#3d8fb5', 'forces': '#d1495b', 'integration': '#e0a030', 'other': '#bbbbbb'}
+
+
+def columns(found):
+    """The codes that were measured, in the order of NAMES."""
+    return [name for name in NAMES if any(key[3] == name for key in found)]
+
+
+def rows(found):
+    """A row for each scene, size, number of threads and code, ms."""
+    return [{'scene': scene, 'spheres': str(n), 'contacts': str(int(entry['contacts'])), 'threads': str(threads), 'code': name,
+             **{part: digits(1e3 * entry[part]) for part in ('step', 'search', 'forces', 'integration')}}
+            for (scene, n, threads, name), entry in found.items()]
+
+
+def plot(file, found, about):
+    """Bars of the parts of a step, a panel for each scene: the largest size with all scenes, the fewest threads."""
+    codes, scenes = columns(found), list(dict.fromkeys(key[0] for key in found))
+    threads = min(key[2] for key in found)
+    n = max(size for size in {key[1] for key in found}
+            if all((scene, size, threads, codes[0]) in found for scene in scenes))
+    figure, axes = plt.subplots(len(scenes), 1, figsize=(8, 1.9 * len(scenes) + .9), squeeze=False)
+    for axis, scene in zip(axes[:, 0], scenes):
+        entries = [found[scene, n, threads, name] for name in codes]
+        left = [0.] * len(codes)
+        for part, colour in PARTS.items():
+            if part == 'other':
+                widths = [max(0., 1e3 * entry['step'] - begin) for entry, begin in zip(entries, left)]
+            else:
+                widths = [1e3 * entry[part] for entry in entries]
+            axis.barh(range(len(codes)), widths, left=left, color=colour, label=part, height=.75, zorder=2)
+            left = [a + b for a, b in zip(left, widths)]
+        for place, entry in enumerate(entries):
+            axis.text(1e3 * entry['step'], place, ' ' + digits(1e3 * entry['step']), va='center', fontsize=8)
+        axis.set_yticks(range(len(codes)), [NAMES[name].replace('`', '') for name in codes], fontsize=9)
+        axis.invert_yaxis()
+        axis.set_xlim(0, axis.get_xlim()[1] * 1.06)
+        axis.set_title(scene, loc='left', fontsize=11)
+        axis.grid(axis='x', color='#dddddd', lw=.8, zorder=0)
+        axis.spines[['top', 'right']].set_visible(False)
+    axes[-1, 0].set_xlabel('ms per step')
+    inch = 1 / figure.get_figheight()
+    figure.suptitle(f'One step of {n:,} spheres, {threads} thread{"s" * (threads > 1)}', fontsize=13)
+    figure.tight_layout(rect=(0, .25 * inch, 1, 1 - .3 * inch))
+    handles, names = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, names, loc='upper center', bbox_to_anchor=(.5, 1 - .32 * inch), ncol=len(PARTS), frameon=False)
+    figure.text(.01, .08 * inch, about, fontsize=8, color='#555555')
+    figure.savefig(file, dpi=110)
+    plt.close(figure)
+
+
 def main(arguments):
     """Parse, measure, write."""
     options = parse(arguments)
@@ -162,8 +220,8 @@ def main(arguments):
     runs = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
     about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {runs}, '
              f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
-    measured_tables.publish(options, 'codes', codes_report.rows(found), about)
-    codes_report.plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))
+    measured_tables.publish(options, 'codes', rows(found), about)
+    plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))
 
 
 if __name__ == '__main__':

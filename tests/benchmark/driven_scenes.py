@@ -6,7 +6,6 @@ hopper    an inverted pyramid of facets, filled with spheres, which leave throug
 import math
 
 import numpy as np
-import yadefrag
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.utils import facet
@@ -22,12 +21,10 @@ OPENING = 6 * RADIUS  # m, half of the width of the open end
 FACET = 10 * RADIUS  # m, about the length of a facet
 
 
-def stirred(n, seed, order='random'):
-    """Spheres in random order, or in the order of the curve; `turning` is the engine that moves the bar."""
+def stirred(n, seed):
+    """Spheres in random order; `turning` is the engine that moves the bar."""
     rng = np.random.default_rng(seed)
     positions = rng.permutation(scenes._block(rng, n))
-    if order == 'curve':
-        positions = np.array(yadefrag.inCurveOrder(positions.tolist()))
     half = np.abs(positions).max()
     reach = .75 * half
     skin = scenes._skin(positions)

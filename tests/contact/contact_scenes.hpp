@@ -13,7 +13,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/row_sweeps.hpp"
-#include "core/random.hpp"
+#include "core/checks.hpp"
 #include "mesh/model.hpp"
 #include "surface/piece_geometry.hpp"
 

@@ -11,7 +11,7 @@
 #include "contact/contact.hpp"
 #include "contact/contact_scenes.hpp"
 #include "contact/pass_rule.hpp"
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 
 namespace yadefrag::test {
 namespace {

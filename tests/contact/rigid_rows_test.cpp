@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/contact_scenes.hpp"
-#include "step/figures.hpp"
+#include "core/checks.hpp"
 
 namespace yadefrag::test {
 namespace {

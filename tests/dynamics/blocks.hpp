@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/same_bits.hpp"
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/explicit_dynamics.hpp"

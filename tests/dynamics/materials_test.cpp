@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 

@@ -9,12 +9,11 @@
 
 #include <cstdlib>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "extremes/limits.hpp"
 #include "fracture/random_cracks.hpp"
 #include "step/bodies.hpp"
 #include "step/eventful_scenes.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

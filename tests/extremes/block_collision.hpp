@@ -6,7 +6,7 @@
 #include <string>
 
 #include "extremes/limits.hpp"
-#include "step/run_result.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 
@@ -25,12 +25,11 @@ struct BlockCollision {
 };
 
 struct Outcome {
-  std::string refusal;  ///< the sentence, if there was one
-  Vec2 left, right;     ///< mean velocities at the end, of the speed, turned back
-  double momentum = 0;  ///< change, of the start's
-  double growth = 0;    ///< kinetic and strain energy, of the start's
-  double deepest = 0;   ///< of a segment, at the end and a hundred times before
-  double steps = 0;
+  std::string refusal;      ///< the sentence, if there was one
+  Vec2 left, right;         ///< mean velocities at the end, of the speed, turned back
+  double momentum = 0;      ///< change, of the start's
+  double growth = 0;        ///< kinetic and strain energy, of the start's
+  double deepest = 0;       ///< of the shortest segment at the start
   std::vector<Vec2> nodes;  ///< m, at the end, shift and turn taken back
   [[nodiscard]] bool isSound(double mostGrowth = 5e-3, double mostDeep = 1e-2) const {
     return refusal.empty() && momentum < 1e-9 && growth < mostGrowth && deepest < mostDeep &&
@@ -79,14 +78,15 @@ struct TimedResult {
   bool touched = false;
 };
 
-/// Runs for a time (s), and looks two hundred times.
-inline TimedResult watchFor(World& world, double time, double ofCritical = .8) {
+/// Runs for a time (s), and looks two hundred times. `shorten`: see stepOrShorter.
+inline TimedResult watchFor(World& world, double time, double ofCritical = .8,
+                            bool shorten = true) {
   TimedResult result;
   const double energy = world.kineticEnergy() + world.strainEnergy();
   result.refusal = sentenceOf([&] {
     double dt = ofCritical * world.criticalTimeStep(), look = 0;
     while (world.time < time) {
-      stepOrShorter(world, dt, true);
+      stepOrShorter(world, dt, shorten);
       result.touched = result.touched || !world.contact.rows().empty();
       if (world.time < look) continue;
       look += time / 200;
@@ -98,31 +98,17 @@ inline TimedResult watchFor(World& world, double time, double ofCritical = .8) {
   return result;
 }
 
-/// Runs a collision, whose start `world` is.
-inline void runCollision(const BlockCollision& collision, World& world, Outcome& outcome) {
-  const double slower = std::min(waveSpeed(collision.left), waveSpeed(collision.right));
-  const double end = collision.size * (collision.until / slower + collision.gap / collision.speed);
-  const double energy = world.kineticEnergy();
-  double dt = collision.ofCritical * world.criticalTimeStep();
-  double look = 0;
-  while (world.time < end) {
-    stepOrShorter(world, dt, collision.shorten);
-    if (world.time < look) continue;
-    look += end / 100;
-    outcome.deepest = std::max(outcome.deepest, deepestNode(world) / world.search.shortest);
-    const double now = world.kineticEnergy() + world.strainEnergy();
-    outcome.growth = std::max(outcome.growth, now / energy - 1);
-  }
-}
-
 inline Outcome collide(const BlockCollision& collision) {
   Outcome outcome;
   World world;
-  outcome.refusal = sentenceOf([&] {
-    world = worldOf(collision);
-    runCollision(collision, world, outcome);
-  });
+  outcome.refusal = sentenceOf([&] { world = worldOf(collision); });
   if (world.model.components.size() < 2) return outcome;
+  const double slower = std::min(waveSpeed(collision.left), waveSpeed(collision.right));
+  const double end = collision.size * (collision.until / slower + collision.gap / collision.speed);
+  const TimedResult run = watchFor(world, end, collision.ofCritical, collision.shorten);
+  outcome.refusal = run.refusal;
+  outcome.growth = run.growth;
+  outcome.deepest = run.deepest / (collision.size / (collision.parts + 1));
   const ComponentId a(0UL), b(1UL);
   const Vec2 left = momentum(world, a), right = momentum(world, b);
   const auto back = [&](Vec2 vector) { return turnedBy(vector, -collision.turn); };

@@ -155,18 +155,10 @@ Outcome squeeze(double ratio) {
   world.addBody(small, moving(small, light, {}));
   world.addBody(low, moving(low, rubber(), {0, speed}));
   world.addBody(high, moving(high, rubber(), {0, -speed}));
-  const double energy = world.kineticEnergy();
-  const double dt = .9 * world.criticalTimeStep(), end = 20 / waveSpeed(rubber());
-  const int every = std::max(1, static_cast<int>(end / dt / 200));
-  outcome.refusal = sentenceOf([&] {
-    for (int i = 0; world.time < end; ++i) {
-      world.step(dt);
-      if (i % every != 0) continue;
-      outcome.deepest = std::max(outcome.deepest, deepestNode(world) / .3);
-      const double now = world.kineticEnergy() + world.strainEnergy();
-      outcome.growth = std::max(outcome.growth, now / energy - 1);
-    }
-  });
+  const TimedResult run = watchFor(world, 20 / waveSpeed(rubber()), .9, false);
+  outcome.refusal = run.refusal;
+  outcome.deepest = run.deepest / .3;
+  outcome.growth = run.growth;
   for (std::uint32_t c = 1; c < 3; ++c) {
     const ComponentId body(std::size_t{c});
     (c == 1 ? outcome.left : outcome.right) =

@@ -3,29 +3,23 @@
 #include "extremes/limits.hpp"
 
 #include <gtest/gtest.h>
-#include <cmath>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 
 namespace yadefrag::test {
 namespace {
 
-TEST(LimitsTable, NumbersAreReadAsTheyAreWritten) {
+TEST(LimitsTable, NumbersHaveTwoDigits) {
   const std::pair<double, const char*> numbers[] = {
-      {0, "0"},           {0, "0"},       {1, "1"},     {47, "47"},         {.02, "0.02"},
-      {1500, "1500"},     {1e-9, "10⁻⁹"}, {1e6, "10⁶"}, {3.2e5, "3.2·10⁵"}, {1e4, "10⁴"},
-      {4e-12, "4·10⁻¹²"}, {.5, "0.5"},    {2.5, "2.5"}, {100, "100"},       {.015, "0.015"},
-      {INFINITY, "∞"},    {9.96e3, "10⁴"}};
-  for (const auto& [value, text] : numbers) {
-    EXPECT_EQ(numberText(value), text);
-    EXPECT_TRUE(numberOf(text) == value || std::abs(numberOf(text) / value - 1) < .005) << text;
-  }
-  EXPECT_EQ(numberText(kNone), "–");
-  for (const char* text : {"", "–", "5⁶", "10⁻", "ten", "3·10⁵ m"})
-    EXPECT_TRUE(std::isnan(numberOf(text))) << text;
+      {0, "0"},       {1, "1"},           {47, "47"},      {.02, "0.02"},
+      {1500, "1500"}, {1e-9, "10⁻⁹"},     {1e6, "10⁶"},    {3.2e5, "3.2·10⁵"},
+      {1e4, "10⁴"},   {4e-12, "4·10⁻¹²"}, {.5, "0.5"},     {2.5, "2.5"},
+      {100, "100"},   {.015, "0.015"},    {9.96e3, "10⁴"}, {kNone, "–"}};
+  for (const auto& [value, text] : numbers) EXPECT_EQ(numberText(value), text);
 }
 
 /// The first argument of each call of `limit`, which may stand on the next line.
@@ -49,9 +43,15 @@ TEST(LimitsTable, EveryRowIsMadeByATest) {
       const std::string text{std::istreambuf_iterator<char>(in), {}};
       addNames(text, made);
     }
+  std::istringstream page(pageOfLimits());
   std::set<std::string> stated;
-  for (const LimitRow& row : readmeLimits())
-    EXPECT_TRUE(stated.insert(row.name).second) << row.name;
+  bool isTable = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("| what | smallest |")) isTable = true;
+    if (!isTable || !line.starts_with("| ") || line.starts_with("| what ")) continue;
+    const std::string name = line.substr(2, line.find(" | ") - 2);
+    EXPECT_TRUE(stated.insert(name).second) << name;
+  }
   EXPECT_EQ(stated, made);
 }
 

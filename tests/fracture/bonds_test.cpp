@@ -1,4 +1,5 @@
-// Bodies that are bonded along the sides that they have in common.
+// Bodies that are bonded along the sides that they have in common. Joints: lines with a strength
+// and a fracture energy of their own, or open from the start.
 
 #include <gtest/gtest.h>
 
@@ -7,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/checks.hpp"
 #include "extremes/limits.hpp"
-#include "fracture/two_sizes.hpp"
+#include "fracture/laboratory.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
+#include "step/eventful_scenes.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -151,6 +153,202 @@ TEST(Bonds, AStepThatDoesNotResolveABondIsRefused) {
             std::string::npos)
       << text;
   EXPECT_EQ(world.steps, 0U);
+}
+
+const MeshLayout kScattered{NodeLayout::kScattered, 1};
+
+std::vector<JointEdge> withStrength(const TriangleMesh& mesh, double strength, double energy) {
+  std::vector<JointEdge> edges;
+  for (const auto& [a, b, joint] : mesh.joints) edges.push_back({{a, b}, strength, energy});
+  return edges;
+}
+
+Polygon rectangle(Vec2 low, Vec2 high) { return {box(low, high), {}}; }
+
+// --- a plate with a crack through its middle, of unit modulus, density and half width
+
+constexpr ElasticMaterial kUnit{1, .3, 1, true};
+constexpr double kHalfWidth = 1, kHalfHeight = 2, kHalfCrack = .4;
+
+/// ∫ of G = K²/E over both tips for a unit stress, K = σ√(πa)·√(sec πa/2W) (Tada, Paris and Irwin,
+/// The Stress Analysis of Cracks Handbook; 0.3 % for a/W = 0.4): the energy that the crack adds at
+/// a given load.
+double addedEnergy() {
+  constexpr int kParts = 10000;
+  double sum = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const double a = kHalfCrack * (i + .5) / kParts;
+    sum += 2 * M_PI * a / std::cos(M_PI * a / (2 * kHalfWidth)) * kHalfCrack / kParts;
+  }
+  return sum;
+}
+
+struct Plate {
+  World world;
+  TriangleMesh mesh;
+};
+
+/// Ends that move apart by `strain` times the height, slowly enough, and then are at rest.
+Plate plateAtRest(double size, const JointLines& joints, double strain) {
+  Plate plate;
+  plate.mesh = triangulate(rectangle({-kHalfWidth, -kHalfHeight}, {kHalfWidth, kHalfHeight}), size,
+                           kScattered, INFINITY, joints);
+  const TriangleMesh& mesh = plate.mesh;
+  BodySpec spec = moving(mesh, kUnit, {0, 0});
+  for (const Vec2 node : mesh.nodes)
+    spec.displacement.push_back({-kUnit.poisson * strain * node.x, strain * node.y});
+  hold(spec, mesh, kHeldY, [](Vec2 at) { return std::abs(at.y) > kHalfHeight - 1e-9; });
+  spec.brittle.tensileStrength = 1e6;
+  spec.places.joints = withStrength(mesh, 0, NAN);
+  World& world = plate.world;
+  world.addBody(mesh, spec);
+  world.dynamicsSettings.damping = 1.5;  // 1/s, nearly aperiodic for the longest wave
+  const double dt = .8 * world.criticalTimeStep();
+  while (world.time < 40) world.step(dt);
+  return plate;
+}
+
+/// Over theory's.
+double addedCompliance(double size) {
+  const JointLines crack{{{{-kHalfCrack, 0}, {kHalfCrack, 0}}}};
+  constexpr double kStrain = 1e-4;
+  const double whole = plateAtRest(size, {}, kStrain).world.strainEnergy();
+  const Plate cracked = plateAtRest(size, crack, kStrain);
+  EXPECT_LT(cracked.world.kineticEnergy(), 1e-6 * whole);
+  EXPECT_EQ(cracked.world.fracture.numCracks(), 0);
+  // At a given way U = w²/2C; at a unit stress, of the load 2W, the crack adds ΔC/2·(2W)².
+  const double way = 2 * kHalfHeight * kStrain;
+  const double compliance = way * way / 2 * (1 / cracked.world.strainEnergy() - 1 / whole);
+  return compliance * 2 * kHalfWidth * kHalfWidth / addedEnergy();
+}
+
+TEST(Joints, APlateWithAnOpenJointHasTheComplianceOfACrackedOne) {
+  const double coarse = addedCompliance(.1), fine = addedCompliance(.05);
+  // Linear triangles around the tips make the crack shorter by a third of a side, and the
+  // compliance goes with its square: what is left of the error at size 0 is that of two random
+  // meshes.
+  figure("added_compliance", fine, 1, .11);
+  figure("added_compliance_at_size_0", 2 * fine - coarse, 1, .03);
+}
+
+TEST(Joints, AnOpenJointIsClosedByPressure) {
+  const JointLines crack{{{{-kHalfCrack, .1}, {kHalfCrack, .1}}}};
+  constexpr double kStrain = -1e-4;
+  const Plate cracked = plateAtRest(.1, crack, kStrain);
+  // Even strain: E ε²/2 in all of the area.
+  const double wanted = kStrain * kStrain / 2 * 4 * kHalfWidth * kHalfHeight;
+  EXPECT_NEAR(cracked.world.strainEnergy() / wanted, 1, 1e-3);
+  EXPECT_GT(cracked.world.contact.rows().size(), 4);
+}
+
+TEST(Joints, OpenJointsCutABodyBeforeTheFirstStep) {
+  const TriangleMesh mesh =
+      triangulate(rectangle({0, 0}, {2, 1}), .1, kScattered, INFINITY, {{{{.8, -1}, {.8, 2}}}});
+  BodySpec spec = moving(mesh, kUnit, {0, 0});
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) spec.velocity[n] = {.1, 0};
+  spec.brittle.tensileStrength = 1;
+  spec.places.joints = withStrength(mesh, 0, NAN);
+  World world;
+  const ComponentId body = world.addBody(mesh, spec);
+  EXPECT_EQ(world.model.nodes.size(), mesh.nodes.size() + mesh.joints.size() + 1);
+  EXPECT_EQ(world.model.nodes.reference.size(), world.model.nodes.size());
+  EXPECT_NEAR(mass(world, body), 2, 1e-12);
+  EXPECT_NEAR(totalEnergy(world), .01, 1e-12);
+  EXPECT_EQ(world.fracture.numCracks(), 0);
+  // Half of it is stopped: the other one leaves.
+  std::vector<NodeId> left;
+  for (std::uint32_t e = 0; e < world.model.triangles.size(); ++e)
+    for (const NodeId node : world.model.triangles.nodes[e]) {
+      const auto& [a, b, c] = world.model.triangles.nodes[e];
+      const double middle =
+          (world.model.nodes.reference[a.value].x + world.model.nodes.reference[b.value].x +
+           world.model.nodes.reference[c.value].x) /
+          3;
+      if (middle < .8) left.push_back(node);
+    }
+  world.prescribe(left, kHeldXY, {0, 0});
+  const double dt = .5 * world.criticalTimeStep();
+  for (int i = 0; i < 200; ++i) world.step(dt);
+  for (std::uint32_t n = 0; n < world.model.nodes.size(); ++n)
+    EXPECT_NEAR(world.model.nodes.velocity[n].x, std::ranges::count(left, NodeId(n)) > 0 ? 0 : .1,
+                1e-12);
+  World copy;
+  load(saved(world), copy);
+  for (int i = 0; i < 50; ++i) world.step(dt), copy.step(dt);
+  EXPECT_TRUE(sameBits(world.model.nodes.position, copy.model.nodes.position));
+}
+
+// --- a bar with a joint across
+
+constexpr ElasticMaterial kBar{1e9, 0, 1000, true};
+constexpr double kLength = .1, kHeight = .02, kThickness = .01, kSection = .07;  // m
+constexpr double kStrength = 2e6, kRate = 2;                                     // Pa, 1/s
+
+struct Broken {
+  double stress = 0;    ///< Pa, at the first crack
+  double spent = 0;     ///< J, at the end
+  double farthest = 0;  ///< m, of all cracks, from the section
+  std::uint64_t cracks = 0;
+  std::size_t joints = 0;
+};
+
+Broken breakBar(double jointStrength, double jointEnergy, double size) {
+  const TriangleMesh mesh = triangulate(rectangle({0, 0}, {kLength, kHeight}), size, kScattered,
+                                        INFINITY, {{{{kSection, 0}, {kSection, kHeight}}}});
+  BodySpec spec = moving(mesh, kBar, {0, 0});
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    spec.velocity[n] = {kRate * (mesh.nodes[n].x - kLength / 2), 0};
+  hold(spec, mesh, kHeldX, [](Vec2 at) { return at.x < 1e-9 || at.x > kLength - 1e-9; });
+  spec.thickness = kThickness;
+  spec.brittle.tensileStrength = kStrength;
+  spec.brittle.fractureEnergy = 100;
+  spec.places.joints = withStrength(mesh, jointStrength, jointEnergy);
+  World world;
+  world.addBody(mesh, spec);
+  const double dt = .5 * world.criticalTimeStep();
+  Broken broken;
+  broken.joints = mesh.joints.size();
+  while (world.time < .0025) {
+    world.step(dt);
+    if (broken.stress == 0 && world.fracture.numCracks() > 0)
+      broken.stress = kBar.young * kRate * world.time;
+  }
+  for (const CrackLine& crack : cracksOf(world))
+    for (const Vec2 end : {crack.first, crack.last})
+      broken.farthest = std::max(broken.farthest, std::abs(end.x - kSection));
+  broken.spent = world.ledger.fracture;
+  broken.cracks = world.fracture.numCracks();
+  return broken;
+}
+
+TEST(Joints, AJointOfHalfTheStrengthBreaksAtHalfTheLoadAndTakesItsOwnEnergy) {
+  constexpr double kEnergy = 20;
+  const Broken half = breakBar(kStrength / 2, kEnergy, .003);
+  // To the last step before, and to the strain's square.
+  EXPECT_NEAR(half.stress / (kStrength / 2), 1, 5e-3);
+  EXPECT_LT(half.farthest, 1e-9);
+  EXPECT_EQ(half.cracks, half.joints);
+  EXPECT_NEAR(half.spent / (kEnergy * kHeight * kThickness), 1, 1e-3);
+}
+
+TEST(Joints, AJointAsStrongAsTheRestIsNone) {
+  // The first edges to crack are any that lie across the load.
+  EXPECT_NEAR(breakBar(kStrength, NAN, .003).stress / kStrength, 1, 5e-3);
+  EXPECT_NEAR(breakBar(10 * kStrength, NAN, .003).stress / kStrength, 1, .03);
+}
+
+TEST(Joints, ImpossibleArgumentsAreRefused) {
+  const TriangleMesh mesh =
+      triangulate(rectangle({0, 0}, {1, 1}), .2, kScattered, INFINITY, {{{{.5, 0}, {.5, 1}}}});
+  const auto expectRefusedWith = [&](double strength, double energy, const char* part) {
+    BodySpec spec = moving(mesh, kUnit, {0, 0});
+    spec.brittle.tensileStrength = 1;
+    spec.places.joints = withStrength(mesh, strength, energy);
+    expectRefused(mesh, spec, part);
+  };
+  for (const double wrong : {-1., double(INFINITY)})
+    expectRefusedWith(wrong, 0, "jointStrength is");
+  for (const double wrong : {-1., double(INFINITY)}) expectRefusedWith(1, wrong, "jointEnergy is");
 }
 
 }  // namespace

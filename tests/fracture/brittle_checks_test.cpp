@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"
@@ -293,25 +293,6 @@ TEST(Separation, DoesNotDependOnTheAxes) {
       EXPECT_NEAR(effectiveTraction(there.normal, there.shear, kShearProof, kFriction),
                   effectiveTraction(here.normal, here.shear, kShearProof, kFriction), 1e-13);
     }
-}
-
-TEST(Separation, UniformTensionActsOnEveryLineAlike) {
-  for (double angle = 0; angle < 6.3; angle += .1) {
-    const Traction t = tractionOn({7, 7, 0}, direction(angle));
-    EXPECT_NEAR(effectiveTraction(t.normal, t.shear, kShearProof, kFriction), 7, 1e-14);
-  }
-}
-
-TEST(Separation, UniaxialTensionActsMostOnLinesAcrossIt) {
-  double most = 0;
-  double at = 0;
-  for (double angle = -1.5; angle < 1.55; angle += .01) {
-    const Traction t = tractionOn({4, 0, 0}, direction(angle));
-    const double effective = effectiveTraction(t.normal, t.shear, kShearProof, kFriction);
-    if (effective > most) most = effective, at = angle;
-  }
-  EXPECT_NEAR(at, 0, 1e-9);
-  EXPECT_NEAR(most, 4, 1e-14);
 }
 
 TEST(Separation, EffectiveTractionIsTheFormula) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/two_triangles.hpp"
 #include "mesh/softening_curve.hpp"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/checks.hpp"
+#include "fracture/laboratory.hpp"
 #include "fracture/random_cracks.hpp"
-#include "fracture/two_sizes.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

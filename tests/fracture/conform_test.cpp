@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "core/checks.hpp"
 #include "dynamics/element_state.hpp"
 #include "extremes/limits.hpp"
+#include "fracture/laboratory.hpp"
 #include "fracture/random_cracks.hpp"
-#include "fracture/two_sizes.hpp"
 #include "step/eventful_scenes.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

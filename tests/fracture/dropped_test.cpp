@@ -7,12 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/same_bits.hpp"
-#include "fracture/impact_result.hpp"
+#include "core/checks.hpp"
 #include "fracture/overlaps.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

@@ -89,13 +89,6 @@ TEST(EdgeStrength, FollowsTheWeibullDistribution) {
   }
 }
 
-TEST(EdgeStrength, Has63PercentOfTheEdgesBelowTheScale) {
-  const std::vector<double> sample = strengths(weibull(10));
-  const auto below = std::count_if(sample.begin(), sample.end(),
-                                   [](double strength) { return strength < kStrength; });
-  EXPECT_NEAR(static_cast<double>(below) / kEdges, 1 - std::exp(-1.), .005);
-}
-
 TEST(EdgeStrength, FollowsTheEvenDistribution) {
   const double s = .3;
   const std::vector<double> sample = strengths(even(s));

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "fracture/impact_result.hpp"
+#include "core/checks.hpp"
+#include "fracture/overlaps.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

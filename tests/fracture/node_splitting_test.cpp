@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "fracture/random_cracks.hpp"
 
 namespace yadefrag::test {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/laboratory.hpp"
 #include "step/bodies.hpp"

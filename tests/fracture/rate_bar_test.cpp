@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/checks.hpp"
 #include "dynamics/element_state.hpp"
 #include "fracture/laboratory.hpp"
 #include "fracture/separation.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

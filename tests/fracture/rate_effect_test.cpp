@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/two_triangles.hpp"
 #include "mesh/rate_effect.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "meshing/size_field.hpp"
 #include "meshing/triangulate.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "core/checks.hpp"
 #include "core/random_bits.hpp"
-#include "core/sentence.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
 #include "meshing/curve_numbering.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "outline/convex_hull.hpp"
 #include "outline/polygon.hpp"

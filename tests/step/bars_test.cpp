@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/checks.hpp"
 #include "core/tolerances/solver.hpp"
 #include "dynamics/element_state.hpp"
 #include "step/blocks.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "benchmark/fe_scenes.hpp"
+#include "core/checks.hpp"
 #include "outline/polygon.hpp"
-#include "step/figures.hpp"
-#include "step/run_result.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -8,12 +8,11 @@
 #include <random>
 #include <string>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "dynamics/element_state.hpp"
 #include "meshing/structured.hpp"
 #include "outline/polygon.hpp"
 #include "step/bodies.hpp"
-#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <random>
 #include <string>
 
+#include "core/checks.hpp"
 #include "core/tolerances/step.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -23,7 +23,8 @@ EnergyWatch watchOf(double energy) {
 }
 
 /// The message of the watch on contact and cracks.
-std::string message(EnergyWatch& watch, const WatchedStep& step, double noise = 0) {
+std::string message(EnergyWatch& watch, const EnergyLedger& ledger, double noise = 0) {
+  const WatchedStep step = stepOf(ledger);
   watch.count(step);
   return watch.mayHaveCreated(step) ? watch.contactMessage(step, noise) : "";
 }
@@ -39,11 +40,7 @@ std::string saidOf(EnergyWatch& watch, double kinetic, double strain,
 
 TEST(EnergyWatch, ReportsOncePerDoubling) {
   EnergyWatch watch = watchOf(100);
-  EnergyLedger ledger;
-  const auto contact = [&](double given) {
-    ledger.contact = -given;
-    return message(watch, stepOf(ledger));
-  };
+  const auto contact = [&](double given) { return message(watch, {.contact = -given}); };
   EXPECT_EQ(contact(.9), "");
   EXPECT_EQ(contact(1.2),
             "Step 7, time 0.5 s: contact has created 1.2 J, 1.2 % of the bodies' energy; take a "
@@ -57,26 +54,18 @@ TEST(EnergyWatch, ReportsOncePerDoubling) {
 
 TEST(EnergyWatch, EarlierDissipationByContactHidesNothing) {
   EnergyWatch watch = watchOf(100);
-  EnergyLedger ledger;
-  ledger.contact = 30, ledger.friction = 20;
-  EXPECT_EQ(message(watch, stepOf(ledger)), "");
-  ledger.contact = 28.5;
-  EXPECT_NE(message(watch, stepOf(ledger)), "");
-  ledger.friction = 18;
-  EXPECT_NE(message(watch, stepOf(ledger)), "") << "friction";
+  EXPECT_EQ(message(watch, {.contact = 30, .friction = 20}), "");
+  EXPECT_NE(message(watch, {.contact = 28.5, .friction = 20}), "");
+  EXPECT_NE(message(watch, {.contact = 28.5, .friction = 18}), "") << "friction";
 }
 
 TEST(EnergyWatch, FrictionMayTakeWhatContactGives) {
   EnergyWatch watch = watchOf(100);
-  EnergyLedger ledger;
-  ledger.contact = 30, ledger.friction = -5;
-  EXPECT_EQ(message(watch, stepOf(ledger)), "");
-  ledger.contact = 25, ledger.friction = .5;
-  EXPECT_EQ(message(watch, stepOf(ledger)), "");
-  ledger.contact = 30, ledger.friction = -4.4;
-  EXPECT_EQ(message(watch, stepOf(ledger)), "") << "the other way round";
-  ledger.contact = 27.9;
-  EXPECT_NE(message(watch, stepOf(ledger)).find("contact has created 2.1 J"), std::string::npos);
+  EXPECT_EQ(message(watch, {.contact = 30, .friction = -5}), "");
+  EXPECT_EQ(message(watch, {.contact = 25, .friction = .5}), "");
+  EXPECT_EQ(message(watch, {.contact = 30, .friction = -4.4}), "") << "the other way round";
+  EXPECT_NE(message(watch, {.contact = 27.9, .friction = -4.4}).find("contact has created 2.1 J"),
+            std::string::npos);
 }
 
 /// As corners that jam did: the sum of both is right.
@@ -87,43 +76,38 @@ TEST(EnergyWatch, ReportsContactThatGivesMuchToFriction) {
     double& gives = byContact ? ledger.contact : ledger.friction;
     double& takes = byContact ? ledger.friction : ledger.contact;
     gives = 30;
-    EXPECT_EQ(message(watch, stepOf(ledger)), "");
+    EXPECT_EQ(message(watch, ledger), "");
     gives = 23, takes = 8;
-    const std::string said = message(watch, stepOf(ledger));
+    const std::string said = message(watch, ledger);
     EXPECT_NE(said.find(byContact ? "contact has given 7 J" : "friction has given 7 J"),
               std::string::npos);
     EXPECT_NE(said.find("where corners jam"), std::string::npos);
     gives = 22, takes = 9;
-    EXPECT_EQ(message(watch, stepOf(ledger)), "") << "less than a doubling";
+    EXPECT_EQ(message(watch, ledger), "") << "less than a doubling";
   }
 }
 
 /// No scene is known in which cohesive cracks create energy: the ledger is given.
 TEST(EnergyWatch, CracksAreDistinguishedFromContact) {
   EnergyWatch watch = watchOf(100);
-  EnergyLedger ledger;
-  ledger.fracture = -3;
-  EXPECT_EQ(message(watch, stepOf(ledger)),
+  EXPECT_EQ(message(watch, {.fracture = -3}),
             "Step 7, time 0.5 s: cohesive cracks have created 3 J, 3 % of the bodies' energy; a "
             "shorter step or smaller elements may help.");
   watch.split = 7;
-  ledger.fracture = -7;
-  EXPECT_TRUE(
-      message(watch, stepOf(ledger))
-          .find("element='smoothed' have created 7 J, 7 % of the bodies' energy; the strains "
-                "of elements that a crack separates") != std::string::npos);
+  EXPECT_NE(message(watch, {.fracture = -7})
+                .find("element='smoothed' have created 7 J, 7 % of the bodies' energy; the strains "
+                      "of elements that a crack separates"),
+            std::string::npos);
   // Contact and friction: their sum less both of them is below zero by rounding.
   EnergyWatch another = watchOf(100);
-  ledger.contact = .2 * 8192, ledger.friction = .5 * 8192, ledger.fracture = -3;
-  EXPECT_TRUE(message(another, stepOf(ledger)).find("cracks have created 3 J") !=
-              std::string::npos);
+  EXPECT_NE(message(another, {.contact = .2 * 8192, .friction = .5 * 8192, .fracture = -3})
+                .find("cracks have created 3 J"),
+            std::string::npos);
 }
 
 TEST(EnergyWatch, DoesNotReportRounding) {
   EnergyWatch watch = watchOf(100);
-  EnergyLedger ledger;
-  ledger.contact = -2;
-  EXPECT_EQ(message(watch, stepOf(ledger), 5), "");
+  EXPECT_EQ(message(watch, {.contact = -2}, 5), "");
   EXPECT_EQ(saidOf(watch, 102, 1, {}, 5), "");
   EXPECT_NE(saidOf(watch, 112, 1, {}, 5), "");
 }
@@ -131,15 +115,13 @@ TEST(EnergyWatch, DoesNotReportRounding) {
 /// A body that goes takes its share of the energy along: what was given before is forgiven.
 TEST(EnergyWatch, BeginsAnewWhenABodyGoes) {
   EnergyWatch watch = watchOf(100);
-  EnergyLedger ledger;
-  ledger.contact = -2;
-  EXPECT_NE(message(watch, stepOf(ledger)), "");
+  const EnergyLedger ledger{.contact = -2};
+  EXPECT_NE(message(watch, ledger), "");
   watch.begin(50, ledger);
   EXPECT_EQ(watch.most, 50);
-  EXPECT_EQ(message(watch, stepOf(ledger)), "");
+  EXPECT_EQ(message(watch, ledger), "");
   EXPECT_EQ(saidOf(watch, 50.4, 0, ledger), "");
-  ledger.contact = -2.7;
-  EXPECT_NE(message(watch, stepOf(ledger)), "");
+  EXPECT_NE(message(watch, {.contact = -2.7}), "");
 }
 
 TEST(EnergyWatch, SumsUpWhereBodiesMoveWithMoreThanThereIs) {

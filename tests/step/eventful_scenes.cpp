@@ -7,7 +7,7 @@
 
 #include "fe/fe_archive.hpp"
 #include "publish/any_archive.hpp"
-#include "step/run_result.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
+#include "core/checks.hpp"
 #include "core/errors.hpp"
 #include "meshing/structured.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <random>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "core/tolerances/step.hpp"
 #include "outline/polygon.hpp"
-#include "step/run_result.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <sstream>
 
-#include "core/sentence.hpp"
+#include "core/checks.hpp"
 #include "dynamics/element_state.hpp"
-#include "step/run_result.hpp"
+#include "step/bodies.hpp"
 #include "surface/surface_checks.hpp"
 
 namespace yadefrag::test {

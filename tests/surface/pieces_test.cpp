@@ -8,7 +8,7 @@
 #include <random>
 
 #include "contact/contact_scenes.hpp"
-#include "core/random.hpp"
+#include "core/checks.hpp"
 #include "mesh/shapes.hpp"
 #include "surface/bezier_arc.hpp"
 #include "surface/disc_contact.hpp"

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/same_bits.hpp"
+#include "core/checks.hpp"
 #include "search/contact_search.hpp"
 #include "step/bodies.hpp"
 

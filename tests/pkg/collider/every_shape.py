@@ -12,7 +12,7 @@ import numpy as np
 import yade.wrapper as w
 from scenes import O
 from yade import gridpfacet, utils
-from yade.minieigenHP import Quaternion, Vector3
+from yade.minieigenHP import Vector3
 
 kSpeed = .02        # m per step
 _chainNumbers = itertools.count()   # YADE keeps the chains of earlier scenes

@@ -171,16 +171,6 @@ def testWallsFacetsAndBoxesThatMove():
     assert some >= 5
 
 
-def testInteractionsThatAScriptTakesAwayComeBack():
-    _, collider = _cloud(400, 11)
-    O.step()
-    pairs = allPairs()
-    O.interactions.clear()
-    collider()
-    assert len(pairs) > 20 and realPairs() == {}
-    _check(collider)
-
-
 def testSameOutcomeAsWithSearchesOfAll():
     """The oracle's contacts in both runs are those of one motion, to the last bit."""
     def run(all):

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 import yade.config
 
-import test_constantness
+import test_lifecycle
 from project import yadeCommand
 
 kHere = os.path.dirname(os.path.abspath(__file__))
@@ -18,7 +18,7 @@ kExampleFolder = '/usr/share/doc/yade/examples'
 kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
-# checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
+# checkColliderConstantness.py reads the rival's sort lists (test_lifecycle.py stands for it);
 # checkVTKRecorder.py compares interactions in the order of YADE's collider (testRecordedContacts stands for it);
 # YADE itself skips checkCapillaryEngineStandalone.py, which fails with its own collider, and
 # DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step, and
@@ -108,10 +108,10 @@ def testCheckScript(collider, script):
     names = [x for x in kQuickChecks + kLongChecks if not reasonToSkip(x)]
     result = outcome(collider.name, 'checks', names)[script]
     checkResult(collider, result)
-    if script not in kNoCollider and not collider.isRival:
+    if script not in kNoCollider:
         assert result['made'] + result['found'] > 0
         assert (result['runs'] > 0) != (script in kNoRun)
-    if script in kFoundChecks and not collider.isRival:
+    if script in kFoundChecks:
         assert result['found'] > 0
 
 
@@ -130,7 +130,7 @@ def testCheckScriptWithLoopAndIntegrator(script):
 def recorded(maker, folder):
     """{array: values} of the contacts of the scene of YADE's checkVTKRecorder.py."""
     os.mkdir(folder)
-    engine = test_constantness.build(maker, periodic=False)
+    engine = test_lifecycle.build(maker, periodic=False)
     # As in the check; without multiblock, VTK's writer aborts with any collider.
     yade.wrapper.O.engines = yade.wrapper.O.engines + [yade.wrapper.VTKRecorder(
         fileName=folder + '/', recorders=['all'], firstIterRun=10, iterPeriod=2000, ascii=True, multiblock=True)]
@@ -173,8 +173,6 @@ def testExample(collider, script):
     """The contacts are those that YADE's collider has when it searches in every step.
 
     With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
-    if collider.isRival and script.endswith('periodicSandPile.py'):
-        pytest.xfail('with strides it loses contacts with the floor')
     every = [os.path.join(kExampleFolder, s) for s in (kLongExamples if script in kLongExamples else kShortExamples)]
     path = os.path.join(kExampleFolder, script)
     expected = outcome('InsertionSortCollider', 'reference', every)[path]

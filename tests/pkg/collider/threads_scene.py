@@ -1,4 +1,4 @@
-"""Scenes for test_threads.py: `yade -jN threads_scene.py COLLIDER SCENE...` prints a line of JSON with the bits of each."""
+"""Scenes for test_lifecycle.py: `yade -jN threads_scene.py COLLIDER SCENE...` prints a line of JSON with the bits of each."""
 import hashlib
 import json
 import os
@@ -11,8 +11,7 @@ import numpy as np
 
 import scenes
 import yadefrag  # noqa: F401  adds CurveLoop
-from heaps import packing
-from scenes import O, w
+from scenes import O, packing, w
 from yade import utils
 from yade.minieigenHP import Vector3
 

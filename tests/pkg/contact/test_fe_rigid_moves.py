@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, run, steps
+from fe_scene import fe, finder, ready, run, steps
 from test_fe_rigid import G, block, facet, smooth, wall
 from yade import utils
 from yade import wrapper as w
@@ -247,8 +247,7 @@ def test_velocityThatNothingIntegratesIsReported():
     solver = fe()
     block(solver, (.001, 0))
     box = O.bodies[O.bodies.append(utils.box((-.1, .05, 0), (.1, .03, 1), fixed=True))]
-    O.engines = yadefrag.engines(solver)
-    O.dt = .8 * solver.criticalTimeStep()
+    ready(solver, .8)
     steps(3)
     assert solver.warnings == []
     box.state.vel = (.5, 0, 0)
@@ -366,8 +365,7 @@ def test_clumpNeedsAResetter():
 @pytest.mark.parametrize('order', ['RF', 'F', 'RFN'])
 def test_forcesOfAStepThatOpensCracks(order):
     """A crack adds bodies to the scene after the forces of the step are known."""
-    O.materials.append(w.BrittleFEMat(young=1e10, poisson=.2, density=2500, tensileStrength=4e6, label='rock'))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(young=1e10, poisson=.2, density=2500, tensileStrength=4e6, label='rock'))
     ground = O.bodies.append(utils.wall(0, axis=1))
     solver.addPolygon(yadefrag.rectangle((-.1, 0), (.1, .15)), size=.02, material='rock', thickness=.05, name='block')
     solver.addPolygon([(0, .1505), (.02, .2), (-.02, .2)], size=.02, material='rock', thickness=.05, velocity=(0, -20))

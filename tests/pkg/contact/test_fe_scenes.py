@@ -9,7 +9,7 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, impact, run, steps, throwBall
+from fe_scene import fe, finder, impact, ready, reloaded, run, steps, throwBall
 from yade import wrapper as w
 
 O = builtins.O
@@ -31,11 +31,7 @@ def course(seed, folder=None):
         solver.damping = random.choice([0, 10])
         steps(random.randint(5, 40))
         if folder and moments.random() < .4:
-            path = os.path.join(folder, 'scene' + moments.choice(['.yade', '.xml']))
-            O.save(path)
-            O.reset()
-            O.load(path)
-            [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+            solver = reloaded(os.path.join(folder, 'scene' + moments.choice(['.yade', '.xml'])))
     return solver, tuple(O.bodies[-1].state.pos)
 
 
@@ -160,8 +156,7 @@ def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
     second = add(.0501, -5)
     O.bodies.append(chain.ball((.05, .1107), .01, O.materials['m']))
     O.bodies[-1].state.vel = (0, -8, 0)
-    O.engines = yadefrag.engines(solver, spheres=True)
-    O.dt = .3 * solver.criticalTimeStep()
+    ready(solver, .3, spheres=True)
     while not any(i.isReal for i in O.interactions):
         O.step()
     steps(10)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import fe_chain as chain
+from outline_files import offLine
 import yadefrag
 from yade import wrapper as w
 
@@ -140,7 +141,7 @@ def test_convexPolygonPushesByItsDistance():
         ray = np.array([math.cos(angle), math.sin(angle)])
         for scale in (1.04, .95, .9):
             centre = scale * ray
-            away = chain.distance(centre, hexagon())
+            away = offLine([centre], hexagon())
             inside = abs((angle % (math.pi / 3)) - math.pi / 6)
             inside = scale * math.cos(inside) < math.sqrt(3) / 2
             wanted = max(RADIUS + away if inside else RADIUS - away, 0)
@@ -156,7 +157,7 @@ def test_arcsPushByTheirDistance():
         ray = np.array([math.cos(angle), math.sin(angle)])
         centre = .97 * ray
         force = forceAt(ball, centre)
-        wanted = max(RADIUS - chain.distance(centre, curve), 0)
+        wanted = max(RADIUS - offLine([centre], curve), 0)
         assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted,
                                                       abs=1e-5 * stiffness())
         if wanted > 0:

@@ -1,4 +1,4 @@
-"""`xvfb-run yade -x gl_scene.py FOLDER`: pictures of scenes in YADE's 3D view, for test_fe_view.py."""
+"""`xvfb-run yade -x gl_scene.py FOLDER`: pictures of scenes in YADE's 3D view, for test_fe_results.py."""
 import os
 import sys
 import time

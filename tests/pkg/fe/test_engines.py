@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, steps, throwBall
+from fe_scene import fe, ready, reloaded, steps, throwBall
 from yade import gridpfacet, utils
 from yade import wrapper as w
 
@@ -63,8 +63,7 @@ def scene(**choices):
                       fixed=lambda x, y: y < -.199)
     for x in (0, 1.2):
         throwBall((x, RADIUS + 1e-4), RADIUS, (0, -1))
-    O.engines = yadefrag.engines(solver, spheres=True, **choices)
-    O.dt = .2 * solver.criticalTimeStep()
+    ready(solver, .2, spheres=True, **choices)
     return solver
 
 
@@ -126,8 +125,7 @@ def test_clumpsOfSpheresTouchEverything():
     O.bodies.append(utils.box((-.3, -.1, 0), (.3, .1, .2), fixed=True, material='m'))
     number, _ = O.bodies.appendClumped([utils.sphere((x, .051, 0), .05, material='m') for x in (-.08, 0, .08)])
     O.bodies[number].state.blockedDOFs = 'zXY'
-    O.engines = yadefrag.engines(solver, spheres=True, gravity=(0, -9.81), damping=.3)
-    O.dt = .2 * solver.criticalTimeStep()
+    ready(solver, .2, spheres=True, gravity=(0, -9.81), damping=.3)
     O.run(int(.1 / O.dt), True)
     assert O.bodies[number].state.pos[1] == pytest.approx(.05, abs=2e-3) and solver.warnings == []
 
@@ -166,9 +164,7 @@ def test_changedGravityReachesAllBodies(how, integrator, isSaved, folder):
     for found in accelerations(solver, ball):
         assert tuple(found) == pytest.approx(first, abs=1e-6)
     if isSaved:
-        O.save(folder + '/scene.yade')
-        O.load(folder + '/scene.yade')
-        [solver] = [one for one in O.engines if isinstance(one, w.FESolver)]
+        solver = reloaded(folder + '/scene.yade')
         ball = next(body for body in O.bodies if isinstance(body.shape, w.Sphere))
     O.engines[-1].gravity = (3, 4, 0)
     for found in accelerations(solver, ball):
@@ -188,8 +184,7 @@ def test_changedGravityReachesAllBodies(how, integrator, isSaved, folder):
 def test_gravityStaysWithoutIntegrator():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m')
-    O.engines = yadefrag.engines(solver, moving=True, gravity=(0, -2))
-    O.dt = .5 * solver.criticalTimeStep()
+    ready(solver, .5, moving=True, gravity=(0, -2))
     steps(5)
     O.engines = yadefrag.engines(solver)
     before, begin = solver.velocities[:, 1].mean(), solver.time
@@ -223,8 +218,7 @@ def test_relaxWaitsForSpheres(place):
     solver.addPolygon(yadefrag.rectangle((0, -.1), (.4, 0)), size=.1, material='m', thickness=.1,
                       fixed=lambda x, y: y < -.0999)
     ball = throwBall(place, .05)
-    O.engines = yadefrag.engines(solver, spheres=True, gravity=(0, -9.81))
-    O.dt = .5 * solver.criticalTimeStep()
+    ready(solver, .5, spheres=True, gravity=(0, -9.81))
     solver.relax()
     assert abs(ball.state.pos[1] - .05) < 2e-3 and ball.state.vel.norm() < 1e-3
     weight = ball.state.mass * 9.81

@@ -6,18 +6,13 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, run, steps
+from fe_scene import fe, reloaded, run, steps
+from outline_files import areas
 from yade import wrapper as w
 
 O = builtins.O
 YOUNG, POISSON, DENSITY = 1e7, .3, 1000.  # fe_scene's material
 TENSOR = (-3e4, 1e4, 2e4)  # Pa
-
-
-def areas(solver):
-    a, b, c = solver.nodes[solver.triangles].transpose(1, 0, 2)
-    (x1, y1), (x2, y2) = (b - a).T, (c - a).T
-    return (x1 * y2 - x2 * y1) / 2
 
 
 def tractionsOn(solver, stress):
@@ -73,8 +68,7 @@ def test_withoutLoadsItSprings():
 @pytest.mark.parametrize('planeStress', [False, True])
 def test_strainEnergyIsHalfStressTimesStrain(planeStress):
     """½ σ:ε A of the linear law within 1e-6: strains of 1e-7 leave out no more."""
-    O.materials.append(w.FEMat(young=YOUNG, poisson=POISSON, density=DENSITY, planeStress=planeStress, label='m'))
-    solver = w.FESolver()
+    solver = fe(w.FEMat(young=YOUNG, poisson=POISSON, density=DENSITY, planeStress=planeStress, label='m'))
     xx, yy, xy = stress = np.array([-3., 1., .5]) * 1e-1
     solver.addPolygon(yadefrag.rectangle((0, 0), (2, 1)), size=.2, material='m', thickness=.5, stress=stress)
     nu, young = (POISSON, YOUNG) if planeStress else (POISSON / (1 - POISSON), YOUNG / (1 - POISSON**2))
@@ -117,8 +111,7 @@ def test_groundUnderItsWeightIsAtRest():
 def test_cracksDependOnTheStress():
     for part, cracks in ((.95, False), (1.05, True)):
         O.reset()
-        O.materials.append(w.BrittleFEMat(young=1e9, poisson=.2, density=2000, tensileStrength=1e6, label='b'))
-        solver = w.FESolver()
+        solver = fe(w.BrittleFEMat(young=1e9, poisson=.2, density=2000, tensileStrength=1e6, label='b'))
         solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='b', stress=(part * 1e6,) * 2 + (0,))
         run(solver)
         solver.loads = tractionsOn(solver, (part * 1e6,) * 2 + (0,))
@@ -180,9 +173,7 @@ def test_stressAcrossThePlaneIsKept(yields, tmp_path):
     solver.addPolygon(yadefrag.rectangle((3, 0), (4, 1)), size=.5, material='m')
     run(solver)
     steps(3)
-    O.save(str(tmp_path / 'state.yade'))
-    O.load(str(tmp_path / 'state.yade'))
-    solver = next(one for one in O.engines if isinstance(one, yadefrag.FESolver))
+    solver = reloaded(str(tmp_path / 'state.yade'))
     own = solver.components == 0
     found = np.column_stack([solver.stress, solver.stressZ])
     assert np.allclose(found[own], wanted, rtol=1e-9)

@@ -62,8 +62,7 @@ def test_pressureTurnsWithItsSide():
 
 
 def test_pressureStaysOnASideThatCracks():
-    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3, label='b'))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3, label='b'))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='b')
     run(solver)
     solver.pressure(lambda x, y: y > 1 - 1e-9, 50.)
@@ -185,8 +184,7 @@ def test_wavesLeaveABodyOfSeveralMaterialsByEachSide(kind):
 
 def splitting(intoCracks, **settings):
     """A bar with a weak joint in its middle, that is drawn apart; pressure on its lower side."""
-    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, label='b', **settings))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, label='b', **settings))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.1, material='b', joints=[((.5, 0), (.5, .4))],
                       jointStrength=1e3, jointEnergy=0, velocity=lambda x, y: (.5 if x > .5 else -.5 if x < .5 else 0, 0))
     run(solver, factor=.5)
@@ -229,8 +227,7 @@ def test_pressureEntersCracksThatTransmitNoTraction():
     ends = []
     for intoCracks in (False, True):
         O.reset()
-        O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, fractureEnergy=50, label='b'))
-        solver = w.FESolver()
+        solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, fractureEnergy=50, label='b'))
         solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', joints=[((.5, 0), (.5, .4))],
                           jointStrength=1e3, jointEnergy=5, velocity=lambda x, y: (.2 if x > .5 else -.2 if x < .5 else 0, 0))
         run(solver, factor=.5)
@@ -249,8 +246,7 @@ def test_pressureEntersCracksThatTransmitNoTraction():
 
 def test_pressureStaysOutOfCracksThatDoNotReachIt():
     """Of a crack within a body, and on the far side of one that pressure has not come to."""
-    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5, label='b'))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5, label='b'))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', jointStrength=1e3, jointEnergy=0,
                       joints=[((.5, .1), (.5, .3))], velocity=lambda x, y: (.2 * (x - .5), 0))
     run(solver, factor=.5)

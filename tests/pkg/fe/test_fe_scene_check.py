@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, momentum, run, steps
+from fe_scene import fe, finder, momentum, reloaded, run, steps
 from yade import utils
 from yade import wrapper as w
 
@@ -163,10 +163,7 @@ def test_gravityThatIsSetCounts(how, folder):
         pull = solver.gravity = (0, 0)
     assert not solver.takesGravity and tuple(solver.gravity) == (*pull, 0)
     O.engines[-1].gravity = (0, -9.81, 0)
-    path = os.path.join(folder, 'scene.xml')
-    O.save(path)
-    O.load(path)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    solver = reloaded(os.path.join(folder, 'scene.xml'))
     assert fall(solver) == pytest.approx(pull, rel=1e-9, abs=1e-12)
     solver.updateAttrs(dict(takesGravity=True, gravity=(0, 0, 0)))
     before, begin = solver.velocities.mean(axis=0), solver.time

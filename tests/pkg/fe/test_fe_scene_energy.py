@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import blow, fe, finder, kineticEnergy, run
+from fe_scene import blow, fe, finder, kineticEnergy, ready, reloaded, run
 from yade import utils
 from yade import wrapper as w
 
@@ -99,14 +99,12 @@ def test_shorterStepIsAdvisedOnlyWhereItHelps(smooth):
     created, messages = [], []
     for factor in (.3, .1):
         O.reset()
-        O.materials.append(w.PlasticFEMat(young=1e8, poisson=.3, density=2700, yieldStress=3e5, hardening=0,
-                                          frictionAngle=.4, label='p'))
-        solver = w.FESolver(linearViscosity=.06)
+        solver = fe(w.PlasticFEMat(young=1e8, poisson=.3, density=2700, yieldStress=3e5, hardening=0,
+                                   frictionAngle=.4, label='p'), linearViscosity=.06)
         solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .04)), size=.0125, material='p', thickness=.04, smooth=smooth,
                           fixed=lambda x, y: x < 1e-9 or x > .5 - 1e-9)
         O.bodies.append(ball((.45, .0561), .016, (1, -15), 1e8, 7800, .4))
-        O.engines = yadefrag.engines(solver, spheres=True)
-        O.dt = factor * solver.criticalTimeStep()
+        ready(solver, factor, spheres=True)
         O.run(int(.02 / O.dt), True)
         created.append(max(0., solver.energy['scene'] - solver.energy['total']))
         messages += [one for one in solver.warnings if 'has created' in one]
@@ -178,10 +176,7 @@ def test_overlapIsReportedOncePerDoubling(capfd, tmp_path):
         ['WARN  FESolver: ' + sentence for sentence in sentences]
     # They are part of the state, and not repeated.
     for name in ('x.yade', 'x.xml'):
-        path = str(tmp_path / name)
-        O.save(path)
-        O.load(path)
-        [again] = [e for e in O.engines if isinstance(e, w.FESolver)]
+        again = reloaded(str(tmp_path / name))
         assert again.warnings == sentences
         assert 'WARN  FESolver' not in capfd.readouterr().err
 
@@ -215,8 +210,7 @@ def test_bodiesWithoutTheirEngineAreReported():
     O.reset()
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    O.engines = yadefrag.engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
+    ready(solver, .5)
     with warnings.catch_warnings():
         warnings.simplefilter('error')
         yadefrag.runSteps(1)

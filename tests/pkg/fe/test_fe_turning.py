@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, run, steps
+from fe_scene import fe, reloaded, run, steps
 from yade import utils
 from yade import wrapper as w
 from yadefrag import engines, rectangle, rectangleMesh
@@ -89,8 +89,7 @@ def test_heldNodesOfABodyThatIsThrownTurnAboutItsCentroid():
 
 
 def test_doubledNodesOfOpenJointsTurn():
-    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e9, label='b'))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e9, label='b'))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='b', fixed=everywhere,
                       velocity=lambda x, y: (-20 * y, 20 * x), joints=[((0, .5), (1, .5))])
     run(solver)
@@ -161,8 +160,7 @@ def test_velocitiesByNodeTablesAndFunctions():
 
 def test_crackedNodesMoveOn():
     """Both halves of a plate that is pulled apart by its turning ends; new nodes turn, too."""
-    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3, label='b'))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3, label='b'))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='b')
     run(solver)
     chosen = np.nonzero(solver.nodes[:, 1] > .7)[0]
@@ -183,9 +181,7 @@ def test_functionsAreRequiredAfterALoad(folder):
     low = bottom(solver)
     solver.prescribe(low, vy=lambda x, y, t: 1)
     steps(3)
-    O.save(path)
-    O.load(path)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    solver = reloaded(path)
     before, speed = solver.nodes, solver.velocities
     with pytest.raises(RuntimeError, match='call FESolver.prescribe for them again'):
         O.step()

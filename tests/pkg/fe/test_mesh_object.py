@@ -10,7 +10,7 @@ import pytest
 
 import yadefrag
 from fe_impact import STEEL, brittle
-from fe_scene import pixelContour
+from outline_files import contour, offLine
 from yadefrag import Mesh, polygonMesh, rectangle, rectangleMesh, ring
 from yade import wrapper as w
 
@@ -241,19 +241,10 @@ def test_shortEdgeOfTheOutlineIsReported():
         added(outline=yadefrag.circle((0, 0), .5, 100))
 
 
-def distanceTo(loop, points):
-    """Of the points, the farthest one's from the loop's edges."""
-    a = np.array(loop)
-    edge = np.roll(a, -1, axis=0) - a
-    to = np.asarray(points)[:, None] - a
-    t = np.clip((to * edge).sum(axis=2) / (edge**2).sum(axis=1), 0, 1)
-    return np.linalg.norm(to - t[..., None] * edge, axis=2).min(axis=1).max()
-
-
 def test_aContourOfPixelsFromAFileIsSimplified(tmp_path):
-    contour = pixelContour(60, 27)
+    pixels = contour(60, lambda x, y: math.hypot(x - 30, y - 30) < 27)[0]
     file = tmp_path / 'pixels.txt'
-    file.write_text('\n'.join('%r %r' % p for p in contour))
+    file.write_text('\n'.join('%r %r' % tuple(p) for p in pixels.tolist()))
     outline, holes = yadefrag.readPolygon(str(file))
     wanted = dict(outline=outline, holes=holes, size=9., material=elastic())
     with pytest.warns(UserWarning, match=r'addPolygon: the critical time step .* simplify=2.7 reduces'):
@@ -263,9 +254,9 @@ def test_aContourOfPixelsFromAFileIsSimplified(tmp_path):
         simple = added(**wanted, simplify=1.5)
     assert len(simple.surfaces[0]) < len(rough.surfaces[0]) / 6
     assert simple.criticalTimeStep() > 3 * rough.criticalTimeStep()
-    assert distanceTo(simple.nodes[simple.surfaces[0]], contour) <= 1.5 * (1 + 1e-12)
+    assert offLine(simple.nodes[simple.surfaces[0]], pixels) <= 1.5 * (1 + 1e-12)
     mass = simple.masses.sum() / rough.masses.sum()
-    assert abs(mass - 1) < 1.5 * len(contour) / (math.pi * 27**2)
+    assert abs(mass - 1) < 1.5 * len(pixels) / (math.pi * 27**2)
 
 
 def test_simplifyKeepsStraightCornersOfSmoothOutlines():

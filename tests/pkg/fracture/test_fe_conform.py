@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 import pytest
 
-import touching_outlines as touching
+import outline_files as touching
 import yadefrag
 from fe_impact import engines
 from fe_scene import momentum

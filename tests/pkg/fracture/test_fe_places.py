@@ -7,7 +7,8 @@ import pytest
 
 import yadefrag
 from fe_impact import brittle, cracks, engines
-from fe_scene import solverOfScene
+from fe_scene import reloaded
+from outline_files import area
 from yade import wrapper as w
 
 O = builtins.O
@@ -59,10 +60,7 @@ def test_arraysAreTheSameAsFunctions(folder):
     again = drawnBar(strength=np.array([kWeak if inBand(x) else 50e6 for x, _ in middles]),
                      fractureEnergy=[kEnergy if inBand(x) else 1000 for x, _ in middles])
     O.run(300, True)
-    O.save(os.path.join(folder, 'bar.yade'))
-    O.reset()
-    O.load(os.path.join(folder, 'bar.yade'))
-    again = solverOfScene()
+    again = reloaded(os.path.join(folder, 'bar.yade'))
     O.run(400, True)
     assert again.numCracks > 0
     assert np.array_equal(again.nodes, nodes) and again.energy == energy
@@ -133,10 +131,6 @@ def test_grainsAsJointsOfOneBody():
     engines(weak)
     O.run(20, True)
     assert weak.numCracks == 0
-
-
-def area(loop):
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(loop, loop[1:] + loop[:1])) / 2
 
 
 def test_grainsAsBodies():

@@ -5,6 +5,7 @@ import warnings
 import numpy as np
 import pytest
 
+from fe_scene import ready
 import yadefrag
 from yade import wrapper as w
 
@@ -26,8 +27,7 @@ def bar(softening, speed=.5):
                   strength=lambda x, y: 1e3 * kStrength, fractureEnergy=lambda x, y: 0,
                   velocity=lambda x, y: (speed * np.sign(x), 0),
                   fixed=lambda x, y: 'x' if abs(x) > kLength / 2 - 1e-9 else False)
-    O.engines = yadefrag.engines(fe)
-    O.dt = .5 * fe.criticalTimeStep()
+    ready(fe, .5)
     return fe
 
 
@@ -82,8 +82,7 @@ def drawnBar(rate, start, material=None, **more):
                   velocity=lambda x, y: (rate * x, -kPoisson * rate * y),
                   displacement=lambda x, y: (start * stretch * x, -kPoisson * start * stretch * y),
                   fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
-    O.engines = yadefrag.engines(fe)
-    O.dt = .2 * fe.criticalTimeStep()
+    ready(fe, .2)
     return fe
 
 
@@ -129,8 +128,7 @@ def test_anEffectMultipliesWhatAnEdgeHas():
                   strength=lambda x, y: kConcreteStrength / 2, joints=[((kConcreteLength / 2, -1), (kConcreteLength / 2, 1))],
                   jointStrength=kConcreteStrength / 4, jointEnergy=kConcreteEnergy,
                   velocity=lambda x, y: (50 * x, 0), fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
-    O.engines = yadefrag.engines(fe)
-    O.dt = .2 * fe.criticalTimeStep()
+    ready(fe, .2)
     while fe.numCracks < 20:
         O.run(10, True)
     table = yadefrag.crackTable(fe)

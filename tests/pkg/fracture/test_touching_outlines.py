@@ -6,12 +6,11 @@ import warnings
 import numpy as np
 import pytest
 
-import touching_outlines as touching
+import outline_files as touching
 import yadefrag
 from fe_impact import brittle, engines
-from fe_scene import pixelContour
+from outline_files import area
 from yade import wrapper as w
-from yadefrag.fe.geometry import simplified
 
 O = builtins.O
 
@@ -31,11 +30,6 @@ def addAll(outlines, size, **given):
         for outline in outlines:
             solver.addPolygon(outline, size=size, material='m', **given)
     return solver, [str(one.message) for one in seen]
-
-
-def area(outline):
-    x, y = np.array(outline).T
-    return .5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
 
 
 # --- outlines that overlap by rounding
@@ -288,11 +282,3 @@ def test_meshesDoNotDependOnTheUnit(irregular):
             assert np.array_equal(again.triangles, first.triangles), (scale, shift)
             assert again.nodes == pytest.approx(scale * first.nodes + shift, rel=1e-9,
                                                    abs=1e-9 * scale * size)
-
-
-def test_simplifiedContoursDoNotDependOnTheUnit():
-    contour = np.array(pixelContour(60, 27), float)
-    scales = 1, 1e-3, .0254, 7
-    kept = [simplified(scale * contour, [], 1.5 * scale, None)[0] for scale in scales]
-    for scale, one in zip(scales, kept):
-        assert 3 < len(one) < len(contour) / 2 and np.array_equal(one, scale * kept[0])

@@ -70,14 +70,6 @@ def arcPoints(points, count=400):
     return np.concatenate(pieces)
 
 
-def distance(point, polyline):
-    """Distance (m) from a point to the closed polyline."""
-    a, b = polyline, np.roll(polyline, -1, axis=0)
-    way = b - a
-    t = np.clip(((point - a) * way).sum(1) / (way**2).sum(1), 0, 1)
-    return np.sqrt(((a + t[:, None] * way - point)**2).sum(1)).min()
-
-
 def ball(centre, radius, material, **attributes):
     """A sphere's body at `centre` (2,), free to move."""
     from yade import utils

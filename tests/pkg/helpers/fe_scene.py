@@ -1,4 +1,4 @@
-"""An elastic disc that hits a block, the engines around an FESolver, momenta, and a contour of pixels."""
+"""An elastic disc that hits a block, the engines around an FESolver, and momenta."""
 import builtins
 
 import numpy as np
@@ -10,9 +10,9 @@ from yade import wrapper as w
 O = builtins.O
 
 
-def fe(**settings):
-    """A solver and an elastic material 'm'."""
-    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
+def fe(material=None, **settings):
+    """A solver, and in the scene the material, or an elastic one 'm'."""
+    O.materials.append(material or w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
     return w.FESolver(**settings)
 
 
@@ -32,8 +32,22 @@ def run(solver, collider=None, spheres=False, newton=True, factor=.8):
     O.dt = factor * solver.criticalTimeStep()
 
 
+def ready(solver, factor, **settings):
+    """The engines of yadefrag.engines, and this part of the critical step."""
+    O.engines = yadefrag.engines(solver, **settings)
+    O.dt = factor * solver.criticalTimeStep()
+
+
 def solverOfScene():
     return next(engine for engine in O.engines if isinstance(engine, w.FESolver))
+
+
+def reloaded(path):
+    """The solver of the scene, which is saved there and loaded."""
+    O.save(path)
+    O.reset()
+    O.load(path)
+    return solverOfScene()
 
 
 def finder(name, **attributes):
@@ -91,25 +105,3 @@ def kineticEnergy(*bodies):
     """(J) Of rigid bodies."""
     return builtins.sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
                         for b in bodies)
-
-
-def pixelContour(count, radius):
-    """The boundary of the unit pixels within `radius` of the middle of count × count, with every
-    pixel corner on it."""
-    middle = np.arange(count) + .5 - count / 2
-    inside = np.hypot(middle[:, None], middle) < radius
-    padded = np.pad(inside, 1)
-    after = {}
-    for i, j in np.argwhere(inside):
-        for across, start, end in (((i + 1, j), (i, j), (i + 1, j)),
-                                   ((i + 2, j + 1), (i + 1, j), (i + 1, j + 1)),
-                                   ((i + 1, j + 2), (i + 1, j + 1), (i, j + 1)),
-                                   ((i, j + 1), (i, j + 1), (i, j))):
-            if not padded[across]:
-                after[start] = end
-    first = min(after)
-    loop, point = [], first
-    while not loop or point != first:
-        loop.append((float(point[0]), float(point[1])))
-        point = after[point]
-    return loop

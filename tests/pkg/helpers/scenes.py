@@ -1,14 +1,13 @@
-"""Builders and checks shared by the in-yade tests. All lengths in m, times in s."""
+"""Builders and checks shared by the in-yade tests, and true sphere-sphere contacts from centres and radii alone.
+All lengths in m, times in s."""
 import builtins
+import itertools
 
 import numpy as np
-import yade
-import yade.timing
+import yade.timing  # noqa: F401  for tests
 import yade.wrapper as w
 from yade import utils
 from yade.minieigenHP import Matrix3, Vector3
-
-import oracle
 
 O = builtins.O
 
@@ -126,10 +125,10 @@ def compare(centres, radii, avoid=0, mayMiss=()):
     # YADE advances the cell before the engines run, so the present hSize is the one they saw.
     hSize = np.array([[O.cell.hSize[r, c] for c in range(3)] for r in range(3)]) \
         if O.periodic else None
-    sure, possible = oracle.contacts(centres, radii, hSize)
+    sure, possible = contacts(centres, radii, hSize)
     masks, clumps = masksNow()
-    sure = oracle.masked(sure, masks, avoid, clumps)
-    possible = oracle.masked(possible, masks, avoid, clumps)
+    sure = masked(sure, masks, avoid, clumps)
+    possible = masked(possible, masks, avoid, clumps)
     found = spherePairs(realPairs())
     missed = {p for p in sure if p not in found and not set(p) & set(mayMiss)}
     extra = {p for p in found if p not in possible and not set(p) & set(mayMiss)}
@@ -171,3 +170,132 @@ def theCollider(collider):
 def listed():
     """Everything about the interactions that has to survive."""
     return sorted((i.id1, i.id2, i.isReal, tuple(i.cellDist)) for i in O.interactions.all())
+
+
+def heap(material=None, periodic=False, spacing=1.45):
+    """Spheres of three sizes, a clump among them, that fall on a facet floor, a box and a wall."""
+    clear()
+    chance = np.random.default_rng(3)
+    O.materials.append(material or w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    if periodic:
+        O.periodic = True
+        O.cell.setBox(9, 9, 9)
+    for place in np.ndindex(6, 6, 4):
+        at = np.array(place) * spacing + chance.uniform(-.2, .2, 3) + (1, 1, 1.6)
+        ball = utils.sphere(Vector3(*at), chance.choice([.5, .7, .75]))
+        ball.state.vel = Vector3(*chance.normal(0, 3, 3))
+        ball.state.angVel = Vector3(*chance.normal(0, 5, 3))
+        O.bodies.append(ball)
+    O.bodies.appendClumped([utils.sphere((4, 4, 9), .6), utils.sphere((4.8, 4, 9), .6)])
+    if not periodic:
+        O.bodies.append([utils.facet([(-30, -30, 0), (30, -30, 0), (0, 40, 0)]),
+                         utils.box((0, 4, 1), (.8, 6, 1), fixed=True), utils.wall(9.5, axis=1)])
+    O.dt = 2e-4
+
+
+def packing(shape, spacing, dt, isTurning=False, seed=2):
+    """Spheres with friction in random motion, in an order that is not that of their places."""
+    clear()
+    chance = np.random.default_rng(seed)
+    places = np.array(list(np.ndindex(shape))) * spacing
+    chance.shuffle(places)
+    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    addSpheres(places, [.5] * len(places), chance.normal(0, 2, (len(places), 3)), dynamic=True)
+    for body in O.bodies if isTurning else ():
+        body.state.angVel = chance.normal(0, 3, 3)
+    O.dt = dt
+
+
+def state():
+    """All numbers of bodies and real contacts, as bytes."""
+    numbers = [[*b.state.pos, *b.state.vel, *b.state.angVel, *b.state.ori] for b in O.bodies if b]
+    contacts = [[i.id1, i.id2, i.iterMadeReal, *i.geom.normal, *i.geom.contactPoint, i.geom.penetrationDepth,
+                 i.geom.refR1, i.geom.refR2, *i.geom.shearInc, i.phys.kn, i.phys.ks, *i.phys.normalForce,
+                 *i.phys.shearForce] for i in O.interactions]
+    forces = [[*O.forces.f(b.id), *O.forces.t(b.id)] for b in O.bodies if b]
+    return [np.array(rows, float).tobytes() for rows in (numbers, contacts, forces)]
+
+
+kRelative = 1e-11   # rounding allowed on a sum of radii
+kAbsolute = 8e-16   # rounding allowed on a coordinate (a few ulps)
+
+
+def contacts(centres, radii, hSize=None, block=512):
+    """Contacts of all pairs, found by comparing every pair.
+
+    centres (n,3) and radii (n) in any one length unit; hSize (3,3): columns are the period vectors,
+    None for an aperiodic scene. Rows that are NaN never touch. Returns (sure, possible), two dicts
+    (i, j) -> cellDist with i < j: `sure` overlap beyond rounding, `possible` includes the ties.
+    cellDist is the triple of periods by which body j has to be shifted (zeros if aperiodic).
+    """
+    centres = np.asarray(centres, float).reshape(-1, 3)
+    radii = np.asarray(radii, float)
+    finder = _aperiodic if hSize is None else _periodic
+    sure, possible = {}, {}
+    for start in range(0, len(centres), block):
+        rows = np.arange(start, min(start + block, len(centres)))
+        for i, j, overlap, slack, dist in finder(centres, radii, rows, hSize):
+            for k in np.nonzero(overlap >= -slack)[0]:
+                key = (int(i[k]), int(j[k]))
+                possible[key] = tuple(int(c) for c in dist[k])
+                if overlap[k] > slack[k]:
+                    sure[key] = possible[key]
+    return sure, possible
+
+
+def _pairs(radii, rows, n):
+    i, j = np.meshgrid(rows, np.arange(n), indexing='ij')
+    upper = (i < j) & ~np.isnan(radii)[i] & ~np.isnan(radii)[j]
+    return i[upper], j[upper]
+
+
+def _overlap(centres, radii, i, j, delta):
+    scale = np.maximum(abs(centres[i]).max(axis=1), abs(centres[j]).max(axis=1))
+    reach = radii[i] + radii[j]
+    overlap = reach - np.sqrt((delta**2).sum(axis=1))
+    return overlap, kRelative * reach + kAbsolute * scale
+
+
+def _aperiodic(centres, radii, rows, _):
+    # Of every pair first one coordinate, with more room than a contact has: most of the time is in the others.
+    room = 1.001 * radii + 1e-12 * abs(centres).max(axis=1)
+    near = abs(centres[rows, 0, None] - centres[:, 0]) <= room[rows, None] + room
+    near &= rows[:, None] < np.arange(len(centres))
+    i, j = np.nonzero(near)
+    i = rows[i]
+    overlap, slack = _overlap(centres, radii, i, j, centres[j] - centres[i])
+    yield i, j, overlap, slack, np.zeros((len(i), 3), int)
+
+
+def _periodic(centres, radii, rows, hSize):
+    """All lattice images that can be within reach, however the cell is sheared."""
+    hSize = np.asarray(hSize, float)
+    i, j = _pairs(radii, rows, len(centres))
+    delta = centres[j] - centres[i]
+    inverse = np.linalg.inv(hSize)
+    fraction = delta @ inverse.T
+    nearest = -np.rint(fraction).astype(int)
+    fraction = fraction + nearest
+    # |row of the inverse| · |hSize f| >= |f|: no contact where some |f| exceeds this
+    limit = 1e-6 + 2 * np.nanmax(radii) * np.linalg.norm(inverse, axis=1)
+    for offset in itertools.product(*(range(-int(k), int(k) + 1) for k in np.ceil(limit))):
+        keep = (abs(fraction + offset) <= limit).all(axis=1)
+        if not keep.any():
+            continue
+        dist = nearest[keep] + np.array(offset)
+        shift = dist @ hSize.T
+        overlap, slack = _overlap(centres, radii, i[keep], j[keep], delta[keep] + shift)
+        # the error of the shift itself counts too
+        yield i[keep], j[keep], overlap, slack + 4 * kAbsolute * abs(shift).max(axis=1), dist
+
+
+def masked(pairs, masks, avoid=0, clumps=None):
+    """Those of `pairs` that may collide: masks share a bit, not both alike within `avoid`,
+    not members of one clump. masks (n,) ints; clumps (n,) ints, -1: none."""
+    def may(i, j):
+        if not masks[i] & masks[j]:
+            return False
+        if masks[i] == masks[j] and masks[i] & avoid:
+            return False
+        return clumps is None or clumps[i] < 0 or clumps[i] != clumps[j]
+    return {key: value for key, value in pairs.items() if may(*key)}

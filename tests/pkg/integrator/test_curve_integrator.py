@@ -1,5 +1,5 @@
 """CurveIntegrator in the place of YADE's NewtonIntegrator: the same bits, whatever bodies the scene has.
-Threads: test_threads.py."""
+Threads: test_lifecycle.py."""
 import os
 
 import numpy as np
@@ -9,8 +9,7 @@ from yade import utils
 from yade.minieigenHP import Matrix3, Quaternion, Vector3
 
 import scenes
-from heaps import heap, state
-from scenes import O
+from scenes import O, heap, state
 
 
 def engines(name, **settings):

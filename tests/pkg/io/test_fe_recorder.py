@@ -8,7 +8,7 @@ import meshio
 import pytest
 
 import yadefrag
-from fe_scene import fe, solverOfScene, steps
+from fe_scene import fe, ready, solverOfScene, steps
 from yade import wrapper as w
 
 O = builtins.O
@@ -168,24 +168,13 @@ def test_enginesTakeTheSolversGravity():
     assert tuple(solver.gravity) == (1, -2, 0)
 
 
-@pytest.mark.parametrize('settings', [dict(fe=3), dict(gravity='down'), dict(gravity=(0, 0, -9.81)),
-                                      dict(gravity=(1,)), dict(spheres='many'), dict(damping=10**400),
-                                      dict(collider=3)])
-def test_wrongEnginesAreRefused(settings):
-    solver = fe(gravity=(0, -1))
-    with pytest.raises(ValueError):
-        yadefrag.engines(**{'fe': solver, **settings})
-    assert tuple(solver.gravity) == (0, -1, 0)
-
-
 # --- calls between steps
 
 def test_callsDoNotWaitForYadesPolling(monkeypatch):
     """YADE's O.wait() looks every 40 ms whether a run is over: it is not used."""
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    O.engines = yadefrag.engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
+    ready(solver, .5)
     waited, called = [], []
     monkeypatch.setattr(w.Omega, 'wait', lambda self: waited.append(O.iter))
     assert yadefrag.runSteps(200, every=1, call=lambda: called.append(O.iter)) == 200

@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-import tradeoff_scenes
+import study_scenes
 import yadefrag
 from fe_scene import impact
 from yade import utils
@@ -169,7 +169,7 @@ def test_tradeoffLooksAtItsFilesFirst(where, folder, monkeypatch):
     open(folder + '/file', 'w').close()
     monkeypatch.setattr(tradeoff_grid, '_runAll', lambda *_: pytest.fail('it has run'))
     with pytest.raises(OSError) as error:
-        yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way, duration=1.,
+        yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way, duration=1.,
                           files=where.format(folder=folder))
     assert error.value.filename == where.format(folder=folder) + '.csv'
 
@@ -183,13 +183,13 @@ def test_tradeoffReturnsItsTableFromAFullDisk(small, monkeypatch):
 
     monkeypatch.setattr(tradeoff_grid, '_runAll', fill)
     with pytest.warns(UserWarning, match='the table could not be written: .*No space left'):
-        found = yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way,
+        found = yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way,
                                   duration=1., files=small + '/t')
     assert len(found.rows) == 1
 
 
 def test_aDurationBelowHalfAStepIsRefused():
-    found = yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way,
+    found = yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way,
                               duration=1e-12, repeats=1)
     row, = found.rows
     assert row.result == 'refused' and 'at most half of the scene\'s step' in row.message

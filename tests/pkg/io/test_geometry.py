@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from outline_files import area, isOneSentence, offLine
+from outline_files import area, contour, isOneSentence, offLine
 from yadefrag import _yadefrag
 from yadefrag.fe import geometry
 from yadefrag.fe.geometry import simplified
@@ -51,6 +51,19 @@ def test_ringIsTwoCircles():
     (lambda: geometry.circle((0, 0), 1, 3.5), ('n', '3.5', 'whole')),
     (lambda: geometry.ring((0, 0), 1, 1), ('inner', '1 m', 'less than outer')),
     (lambda: geometry.ring((0, 0), -1, 1), ('inner', '-1', 'positive')),
+    (lambda: voronoi([(0, 0), (1, 0)], 3), ('outline', '2 points')),
+    (lambda: voronoi([(0, 0), (1, 1), (1, 0), (0, 1)], 3), ('vertex', 'outline')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 0), ('n is 0', 'positive whole')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 10**6), ('n is 1000000', 'at most')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 3, seed=-1), ('seed is -1', '0 or more')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 3, rounds=1.5), ('rounds is 1.5', 'whole')),
+    (lambda: voronoi(geometry.circle((0, 0), 1), 3, shortest=-1), ('shortest is -1', '0 or a')),
+    (lambda: voronoi(geometry.rectangle((0, 0), (1, 1)), 30, shortest=.8),
+     ('shortest is 0.8 m, too long for these grains',)),
+    (lambda: voronoi([(0, 0), (1, 1), (1 + 1e-9, 1)], 3), ('no room for 3 grains',)),
+    (lambda: voronoi([(1e17, 1e17), (1e17 + 64, 1e17), (1e17, 1e17 + 64)], 50), ('too far from the origin',)),
+    (lambda: grainJoints(3), ('grains is 3', 'list of outlines')),
+    (lambda: grainJoints([[(0, 0)]]), ('grains[0]', '1 points')),
 ])
 def test_badArgumentsAreNamed(call, words):
     with pytest.raises(ValueError) as error:
@@ -82,26 +95,6 @@ def test_badPolygonFileNamesTheLine(folder, text, line):
         outlines.readPolygon(path)
     assert path in str(error.value) and line in str(error.value)
     assert str(error.value).endswith('.')
-
-
-def contour(count, isInside):
-    """Loops around the pixels whose middle is inside, the longest first, with a point at each corner of a pixel."""
-    def isIn(i, j):
-        return 0 <= i < count and 0 <= j < count and isInside(i + .5, j + .5)
-    after = {}
-    for i, j in np.ndindex(count, count):
-        if isIn(i, j):
-            corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-            beside = [(i, j - 1), (i + 1, j), (i, j + 1), (i - 1, j)]
-            after.update((corners[k], corners[(k + 1) % 4]) for k in range(4) if not isIn(*beside[k]))
-    loops = []
-    while after:
-        at, loop = min(after), []
-        while at in after:
-            loop.append(at)
-            at = after.pop(at)
-        loops.append(np.array(loop, dtype=float))
-    return sorted(loops, key=len, reverse=True)
 
 
 def square(x, y, angle, side):
@@ -141,10 +134,12 @@ def test_contoursOfPixels():
 
 
 def test_anyScale():
-    wanted = fewer(kPixelDisc, .8)
-    for scale in 2.**-300, 2.**300:
-        found = fewer([loop * scale for loop in kPixelDisc], .8 * scale)
-        assert all(np.array_equal(one, other * scale) for one, other in zip(found, wanted))
+    small = contour(60, lambda x, y: math.hypot(x - 30, y - 30) < 27)
+    for loops, tolerance, scales in ((kPixelDisc, .8, (2.**-300, 2.**300)), (small, 1.5, (1e-3, .0254, 7))):
+        wanted = fewer(loops, tolerance)
+        for scale in scales:
+            found = fewer([loop * scale for loop in loops], tolerance * scale)
+            assert all(np.array_equal(one, other * scale) for one, other in zip(found, wanted))
 
 
 def test_holesStayInside():
@@ -272,25 +267,3 @@ def test_grainsShareSides():
     around = sum(math.dist(a, b) for g in grains for a, b in zip(g, g[1:] + g[:1]))
     assert around == pytest.approx(2 * inner + 6, rel=1e-12)
     assert grainJoints(grains[:1]) == []
-
-
-@pytest.mark.parametrize('call, words', [
-    (lambda: voronoi([(0, 0), (1, 0)], 3), ('outline', '2 points')),
-    (lambda: voronoi([(0, 0), (1, 1), (1, 0), (0, 1)], 3), ('vertex', 'outline')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 0), ('n is 0', 'positive whole')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 10**6), ('n is 1000000', 'at most')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 3, seed=-1), ('seed is -1', '0 or more')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 3, rounds=1.5), ('rounds is 1.5', 'whole')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 3, shortest=-1), ('shortest is -1', '0 or a')),
-    (lambda: voronoi(geometry.rectangle((0, 0), (1, 1)), 30, shortest=.8),
-     ('shortest is 0.8 m, too long for these grains',)),
-    (lambda: voronoi([(0, 0), (1, 1), (1 + 1e-9, 1)], 3), ('no room for 3 grains',)),
-    (lambda: voronoi([(1e17, 1e17), (1e17 + 64, 1e17), (1e17, 1e17 + 64)], 50), ('too far from the origin',)),
-    (lambda: grainJoints(3), ('grains is 3', 'list of outlines')),
-    (lambda: grainJoints([[(0, 0)]]), ('grains[0]', '1 points')),
-])
-def test_wrongGrainsAreRefused(call, words):
-    with pytest.raises(ValueError) as error:
-        call()
-    text = str(error.value)
-    assert text.endswith('.') and text.count('. ') == 0 and all(word in text for word in words)

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from fe_scene import fe
-from outline_files import refusesMesh, written
-from test_mesh_files import areas
+from outline_files import areas, refusesMesh, written
 from yadefrag import readMesh, rectangleMesh
 
 kPlaces = {1: (0, 0), 2: (1, 0), 3: (2, 0), 4: (0, 1), 5: (1, 1), 6: (2, 1), 7: (1, .6), 8: (1, 0), 9: (.3, .2),

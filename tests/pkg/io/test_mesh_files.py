@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from fe_scene import fe
-from outline_files import refusesMesh, written
+from outline_files import areas, refusesMesh, written
 from yade import wrapper as w
 from yadefrag import readMesh, rectangleMesh
 from yadefrag.io.readers import gmsh
@@ -112,11 +112,6 @@ $Elements
 50 12 3 6 5
 $EndElements
 '''
-
-
-def areas(mesh):
-    a, b, c = mesh.nodes[mesh.triangles].transpose(1, 0, 2)
-    return ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
 
 
 def test_gmshGroups(folder):

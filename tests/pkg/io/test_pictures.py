@@ -384,18 +384,6 @@ def test_filmRunsTheScene(folder):
         assert film.n_frames == 4
 
 
-@pytest.mark.parametrize('change, word', [
-    ({'steps': 0}, 'steps is 0'), ({'every': -1}, 'every is -1'), ({'rate': 0}, 'rate is 0'),
-    ({'file': 'out.avi'}, "must end with '.gif'"), ({'field': 'none'}, "field is 'none'"),
-    ({'field': [1, 2]}, 'field is an array'),
-])
-def test_filmIsRefusedBeforeTheFirstStep(change, word):
-    arguments = {'file': 'out.gif', 'steps': 10, 'every': 5, **change}
-    with pytest.raises(ValueError) as error:
-        pictures.animate(makeSolver(), **arguments)
-    assert word in str(error.value) and O.iter == 0
-
-
 def test_importCostsNoPlotting(folder):
     """Scripts that draw nothing do not wait for Matplotlib and meshio."""
     with open(folder + '/script.py', 'w') as script:

@@ -1,5 +1,5 @@
 """CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has.
-Threads: test_threads.py."""
+Threads: test_lifecycle.py."""
 import os
 
 import numpy as np
@@ -10,8 +10,7 @@ from yade import utils
 from yade.minieigenHP import Matrix3
 
 import scenes
-from heaps import heap, packing, state
-from scenes import O
+from scenes import O, heap, packing, state
 
 NAMES = 'InteractionLoop', 'CurveLoop'
 

@@ -1,5 +1,9 @@
-"""The report of yadefrag on itself: yadefrag.about() and python3 -m yadefrag."""
-
+"""What the package tells about itself: yadefrag.about() and python3 -m yadefrag; what YADE's Python, class lists
+and archives know of a class that this project adds; type hints, which mypy checks (scripts/check types), and which
+a user sees."""
+import ast
+import builtins
+import inspect
 import os
 import pathlib
 import re
@@ -7,11 +11,11 @@ import subprocess
 import sys
 
 import pytest
-
 import yadefrag
-from yade import config
-from yadefrag import _yadefrag, support
+from yade import config, system, wrapper
+from yadefrag import support
 
+O = builtins.O
 PACKAGE = pathlib.Path(yadefrag.__file__).absolute().parent.parent
 
 
@@ -68,3 +72,129 @@ def test_yadeThatDoesNotWorkIsReported(tmp_path):
     done = asked(PATH='%s:%s' % (tmp_path, os.environ['PATH']))
     assert done.returncode == 1 and done.stdout == ''
     assert done.stderr.strip().endswith('a library is missing')
+
+
+NAMES = [n for n in yadefrag.__all__ if isinstance(getattr(yadefrag, n), type)
+         and n not in ('TradeoffTable', 'EnsembleTable', 'Mesh')]  # no part of a scene
+
+
+@pytest.fixture(params=NAMES)
+def made(request):
+    """The class under test."""
+    return getattr(wrapper, request.param)
+
+
+@pytest.fixture(params=[name for name in NAMES if name.endswith('Collider')])
+def collider(request):
+    return getattr(wrapper, request.param)
+
+
+def test_somethingIsPublished():
+    assert len(NAMES) > 10 and sum(name.endswith('Collider') for name in NAMES) == 3
+
+
+def test_classIsWhereScriptsLookForIt(made):
+    name = made.__name__
+    assert getattr(yadefrag, name) is made
+    assert getattr(builtins, name) is made
+    assert name in system.childClasses('Serializable')
+
+
+def test_colliderIsAChildOfCollider(collider):
+    assert issubclass(collider, wrapper.Collider)
+    assert O.isChildClassOf(collider.__name__, 'Collider')
+    assert collider.__name__ in system.childClasses('Collider')
+
+
+def test_keywordsAreAttributes(collider):
+    one = collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.25, label='scratch', avoidSelfInteractionMask=2)
+    assert (one.verletDist, one.label, one.avoidSelfInteractionMask) == (.25, 'scratch', 2)
+    assert [type(f) for f in one.boundDispatcher.functors] == [wrapper.Bo1_Sphere_Aabb]
+    one.updateAttrs({'verletDist': .5})
+    assert one.verletDist == .5 and one.dict()['verletDist'] == .5
+
+
+def test_errorsAreYades(made):
+    with pytest.raises(AttributeError) as ours:
+        made(noSuchAttribute=1)
+    with pytest.raises(AttributeError) as yades:
+        wrapper.InsertionSortCollider(noSuchAttribute=1)
+    assert str(ours.value) == str(yades.value)
+    settable = next(name for name in made().dict() if getattr(type(made()), name).fset)
+    with pytest.raises(TypeError):
+        made(**{settable: object()})
+    with pytest.raises(AttributeError):
+        made().updateAttrs({'noSuchAttribute': 1})
+    with pytest.raises((TypeError, ValueError, RuntimeError)):
+        made(1, 2)
+
+
+def test_dictRebuildsTheObject(made):
+    one = made()
+    other = made()
+    other.updateAttrs(one.dict())
+    assert other.dict().keys() == one.dict().keys()
+    assert repr(one).startswith('<%s instance' % made.__name__)
+    assert made.__doc__
+
+
+@pytest.mark.parametrize('ending', ['.xml', '.xml.bz2', '.yade', '.yade.gz'])
+def test_savedAndLoaded(collider, ending, folder):
+    path = os.path.join(folder, 'scene' + ending)
+    O.engines = [wrapper.ForceResetter(), collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.125, label='finder')]
+    wanted = O.engines[1].dict()
+    O.save(path)
+    O.reset()
+    O.load(path)
+    loaded = O.engines[1]
+    assert type(loaded) is collider and len(loaded.boundDispatcher.functors) == 1
+    values = loaded.dict()
+    for name, value in wanted.items():
+        if isinstance(value, (bool, int, float, str)):
+            assert values[name] == value, name
+
+
+# --- type hints
+
+SOURCES = sorted(pathlib.Path(yadefrag.__file__).parent.rglob('*.py'))
+
+
+def functions(body, isPublic=True, isMethod=False):
+    """(function, True if its first argument is the object) of all public ones, also of public classes."""
+    for one in body:
+        isShown = isPublic and (not one.name.startswith('_') or one.name.startswith('__')) \
+            if isinstance(one, (ast.ClassDef, ast.FunctionDef)) else False
+        if isShown and isinstance(one, ast.ClassDef):
+            yield from functions(one.body, isMethod=True)
+        elif isShown:
+            isStatic = any(ast.unparse(d) == 'staticmethod' for d in one.decorator_list)
+            yield one, isMethod and not isStatic
+
+
+def lacking(function, isMethod):
+    """Names of the arguments without a type, and 'return'."""
+    of = function.args
+    arguments = [*of.posonlyargs, *of.args, *of.kwonlyargs, *filter(None, [of.vararg, of.kwarg])][isMethod:]
+    return [one.arg for one in arguments if one.annotation is None] + ['return'] * (function.returns is None)
+
+
+@pytest.mark.parametrize('file', SOURCES, ids=lambda file: file.stem)
+def test_publicFunctionsHaveHints(file):
+    found = {one.name: lacking(one, isMethod) for one, isMethod in functions(ast.parse(file.read_text()).body)}
+    assert {name: those for name, those in found.items() if those} == {}
+
+
+def test_hintsAreShown():
+    """Also of functions that are called through another one, and of FESolver's methods."""
+    assert len(SOURCES) > 50
+    for function in (yadefrag.plotMesh, yadefrag.tradeoff, yadefrag.FESolver.addPolygon):
+        found = inspect.signature(function)
+        assert found.return_annotation is not found.empty
+        assert all(one.annotation is not one.empty for one in found.parameters.values())
+
+
+def test_classesForCheckersAreThoseThatArePublished():
+    tree = ast.parse(pathlib.Path(yadefrag.__file__).read_text())
+    named = [one.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == 'yade.wrapper'
+             for one in node.names]
+    assert named == sorted(name for name in yadefrag.__all__ if hasattr(wrapper, name))

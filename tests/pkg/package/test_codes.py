@@ -1,6 +1,4 @@
-"""scripts/bench codes: LAMMPS, LIGGGHTS and YADE with our engines compute the same motion from the same scene.
-
-And scripts/bench advice."""
+"""scripts/bench codes: LAMMPS, LIGGGHTS and YADE with our engines compute the same motion from the same scene."""
 import sys
 
 import pytest
@@ -9,9 +7,7 @@ from project import ROOT
 
 # Last: its modules have names that other folders have, too.
 sys.path.append(str(ROOT / 'tests' / 'benchmark'))
-import advice  # noqa: E402
 import codes  # noqa: E402
-import codes_report  # noqa: E402
 
 kSteps = 30
 
@@ -41,10 +37,10 @@ def test_partsAreNoMoreThanTheStep(rows):
 def test_tableAndPlot(rows, tmp_path):
     options, found = rows
     medians = codes.summary(found)
-    table = codes_report.rows(medians)
+    table = codes.rows(medians)
     assert [(row['scene'], row['code']) for row in table] == [
         (scene, name) for scene in ('packing', 'stirred') for name in options.codes]
-    codes_report.plot(str(tmp_path / 'codes.png'), medians, 'here')
+    codes.plot(str(tmp_path / 'codes.png'), medians, 'here')
     assert (tmp_path / 'codes.png').stat().st_size > 10000
 
 
@@ -67,11 +63,3 @@ def test_missingCodesAreNamed(monkeypatch, capsys):
     assert codes.installed(['YADE', 'LIGGGHTS', 'LAMMPS']) == ['YADE']
     assert capsys.readouterr().err.strip() == (
         'not compared with LIGGGHTS and LAMMPS: not installed (sudo apt-get install liggghts lammps).')
-
-
-def test_habits(tmp_path):
-    """Each variant is measured once in each round, with the bodies in both orders."""
-    advice.main(['--n', '300', '--rounds', '2', '--repeat', '1', '--out', str(tmp_path)])
-    rows = (tmp_path / 'advice.md').read_text().splitlines()
-    assert rows[2].startswith('| O.run | ') and rows[2].endswith(' | 1.00 |')
-    assert sum(row.startswith('| ') for row in rows) == 1 + 8 and '300 spheres' in rows[-1]

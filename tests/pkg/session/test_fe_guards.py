@@ -9,7 +9,6 @@ import weakref
 import numpy as np
 import pytest
 
-import yadefrag
 from fe_impact import impact, steps
 from fe_scene import impact as elasticImpact
 from yade import utils

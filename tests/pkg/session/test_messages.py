@@ -11,6 +11,7 @@ import warnings
 
 import pytest
 
+from fe_scene import fe, ready
 import yadefrag
 from yade import utils
 from yade import wrapper as w
@@ -112,14 +113,12 @@ def followed(scene, pattern):
 def rubber(asked=0, young=5e6, speed=60, element='linear'):
     """A disc of rubber hits a strip of rubber on a rigid base. `asked`: how many times the step that a message
     states is taken, in the middle of the run."""
-    O.materials.append(w.FEMat(young=young, poisson=.4, density=1100, frictionAngle=.2, label='rubber'))
-    solver = w.FESolver()
+    solver = fe(w.FEMat(young=young, poisson=.4, density=1100, frictionAngle=.2, label='rubber'))
     nodes, triangles = yadefrag.rectangleMesh((-.03, 0), (.03, .002), 30, 1)
     solver.addTriangles(nodes, triangles, material='rubber', element=element, fixed=lambda x, y: y < 1e-9)
     solver.addPolygon(yadefrag.circle((0, .0071), .005, 32), size=1.2e-3, material='rubber', element=element,
                       velocity=(0, -speed))
-    O.engines = yadefrag.engines(solver)
-    O.dt = .4 * solver.criticalTimeStep()
+    ready(solver, .4)
     end = .012 / speed
     found = ran(solver, int(end / O.dt))
     while asked and found and 'is pressed to' in found[-1]:

@@ -7,7 +7,7 @@ import re
 import pytest
 
 import yadefrag
-from fe_scene import fe, throwBall
+from fe_scene import fe, ready, throwBall
 from test_messages import advised, assertAdviceHelps, ran, reported, steel
 from yade import utils
 from yade import wrapper as w
@@ -35,16 +35,14 @@ def spreading(factor):
     rate = 1.5 * math.sqrt(2e11 * .7 / 1.3 / .4 / 7800 * 2)
     solver.addTriangles(nodes, triangles, material='steel', selfContact=False,
                         velocity=lambda x, y: (rate * (x - y), rate * (.3 * y + x)))
-    O.engines = yadefrag.engines(solver)
-    O.dt = factor * solver.criticalTimeStep()
+    ready(solver, factor)
     return ran(solver, int(200 / factor))
 
 
 def plate(size=2e-3, dt=None, element='linear', strain=0, **settings):
     """A plate of concrete that flies apart, or that is held stretched."""
     settings = dict(young=32e9, poisson=.2, density=2450, tensileStrength=3e6, strengthScatter=.1) | settings
-    O.materials.append(w.BrittleFEMat(label='concrete', **settings))
-    solver = w.FESolver()
+    solver = fe(w.BrittleFEMat(label='concrete', **settings))
     held = dict(displacement=lambda x, y: (strain * x, 0), fixed=lambda x, y: x < 1e-9 or x > .04 - 1e-9) if strain \
         else dict(velocity=lambda x, y: (100 * (x - .02), 20 * y))
     solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=size, material='concrete', element=element, **held)
@@ -59,8 +57,7 @@ def unresolved(dt=None, size=2e-3):
 
 def thrown(factor=.9, speed=.1):
     """A wedge hits a sliver, whose nodes are so light that contact would throw them over many segments."""
-    O.materials.append(w.FEMat(young=1e3, poisson=.3, density=1000, frictionAngle=0, label='m'))
-    solver = w.FESolver()
+    solver = fe(w.FEMat(young=1e3, poisson=.3, density=1000, frictionAngle=0, label='m'))
     nodes = [(-1, 0), (-1, -1), (0, -1), (0, 0), (1, 0), (0, -1e-3)]
     solver.addTriangles(nodes, [(0, 1, 3), (1, 5, 3), (1, 2, 5), (5, 4, 3)], material='m', selfContact=False)
     solver.addTriangles([(.08, .5), (.1, 1e-5), (.12, .5)], [(0, 1, 2)], material='m', selfContact=False)
@@ -78,35 +75,30 @@ def small(factor=.8, young=1e9):
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.125, material='m', fixed=lambda x, y: y < 1e-9)
     throwBall((.44, .51), .0101, (0, -1), w.FrictMat(young=young, density=300, frictionAngle=.3))
-    O.engines = yadefrag.engines(solver, spheres=True)
-    O.dt = factor * solver.criticalTimeStep()
+    ready(solver, factor, spheres=True)
     return ran(solver, int(.004 / O.dt))
 
 
 def bent(smooth=False, factor=.5):
     """Soft spheres fall on a thin wire, which bends under them."""
-    O.materials.append(w.FEMat(young=5e7, poisson=.3, density=1100, frictionAngle=.3, label='wire'))
-    solver = w.FESolver()
+    solver = fe(w.FEMat(young=5e7, poisson=.3, density=1100, frictionAngle=.3, label='wire'))
     solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .006)), size=.003, material='wire', element='smoothed',
                       smooth=smooth, thickness=.02, fixed=lambda x, y: x < 1e-9 or x > .3999)
     soft = w.FrictMat(young=3e6, poisson=.2, density=1500, frictionAngle=.3)
     for i in range(5):
         throwBall((.08 + .06 * i, .05 + .03 * (i % 2)), .02, (0, -3), soft)
-    O.engines = yadefrag.engines(solver, gravity=(0, -9.81), spheres=True)
-    O.dt = factor * solver.criticalTimeStep()
+    ready(solver, factor, gravity=(0, -9.81), spheres=True)
     O.run(int(.02 / O.dt), True)
     return solver.warnings
 
 
 def thrownAt(young=1e7, radius=.01, speed=50, factor=.4, body=1e9, smooth=False):
     """A sphere hits a block."""
-    O.materials.append(w.FEMat(young=body, poisson=.2, density=2000, frictionAngle=.3, label='m'))
-    solver = w.FESolver()
+    solver = fe(w.FEMat(young=body, poisson=.2, density=2000, frictionAngle=.3, label='m'))
     solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .1)), size=.02, material='m', thickness=.02, smooth=smooth,
                       fixed=lambda x, y: y < 1e-9)
     ball = throwBall((.2, .1001 + radius), radius, (0, -speed), w.FrictMat(young=young, density=7800, frictionAngle=.3))
-    O.engines = yadefrag.engines(solver, spheres=True)
-    O.dt = factor * solver.criticalTimeStep()
+    ready(solver, factor, spheres=True)
     O.run(int(1200 / factor), True)
     assert ball.state.pos[1] > .1 or any('may pass through' in one for one in solver.warnings)
     return solver.warnings
@@ -118,8 +110,7 @@ def putAt(height, isLate=True):
     if not isLate:
         throwBall((.5, height), .1)
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m', thickness=.2)
-    O.engines = yadefrag.engines(solver, spheres=True)
-    O.dt = .2 * solver.criticalTimeStep()
+    ready(solver, .2, spheres=True)
     ran(solver, 3)
     if isLate:
         throwBall((.5, height), .1)
@@ -136,8 +127,7 @@ def clump(moment=None, blocked='zXY'):
     state.blockedDOFs = blocked
     if moment:
         state.inertia = (moment,) * 3
-    O.engines = yadefrag.engines(solver, moving=True)
-    O.dt = .1 * solver.criticalTimeStep()
+    ready(solver, .1, moving=True)
     return ran(solver, 1)
 
 
@@ -161,8 +151,7 @@ def rested(most):
     solver = fe(gravity=(0, -1))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m',
                       fixed=lambda x, y: y < 1e-9)
-    O.engines = yadefrag.engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
+    ready(solver, .5)
     assert solver.relax(most=most) >= 5
 
 
@@ -177,8 +166,7 @@ def standing(onWall=True):
         O.bodies.append(utils.wall(0, axis=1, material='m'))
     else:
         solver.addPolygon(yadefrag.rectangle((-.1, -.02), (.1, 0)), size=.0066, material='m', fixed=lambda x, y: y < -.0199)
-    O.engines = yadefrag.engines(solver, gravity=(.04 * 9.81, -9.81))
-    O.dt = .8 * solver.criticalTimeStep()
+    ready(solver, .8, gravity=(.04 * 9.81, -9.81))
     body = solver.nodesOf(0)
     O.run(int(.2 / O.dt), True)
     share = solver.masses[body] @ solver.velocities[body][:, 0] / solver.masses[body].sum() / (2 / 3 * .04 * 9.81 * .2)

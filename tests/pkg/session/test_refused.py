@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, impact, run, steps
+from fe_scene import fe, finder, impact, reloaded, run, steps
 from yade import wrapper as w
 
 O = builtins.O
@@ -143,10 +143,7 @@ def test_bodiesThatOverlapAreNotAdded(folder):
     assert added(made, (1, 0)) == first + 1
     run(made)
     steps(5)
-    O.save(folder + '/scene.xml')
-    O.reset()
-    O.load(folder + '/scene.xml')
-    [made] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    made = reloaded(folder + '/scene.xml')
     with pytest.raises(ValueError, match='overlaps body 0 at'):
         made.addPolygon(yadefrag.circle((.5, .5), .1, 8), size=.1, material='m')
     added(made, (3, 0))
@@ -209,6 +206,10 @@ WRONG = [
     (lambda s: yadefrag.animate(s, 'a.gif', 2, 1, window=((0, 0), 1)), 'window is'),
     (lambda s: yadefrag.animate(s, 'a.gif', 2, 1, limits=3), 'limits is 3'),
     (lambda s: yadefrag.animate(s, 'a.gif', 2, 1, rate='fast'), "rate is 'fast'"),
+    *[(lambda s, change=change: yadefrag.animate(s, **{'file': 'a.gif', 'steps': 10, 'every': 5, **change}), words)
+      for change, words in ((dict(steps=0), 'steps is 0'), (dict(every=-1), 'every is -1'), (dict(rate=0), 'rate is 0'),
+                            (dict(file='a.avi'), "must end with '.gif'"), (dict(field='none'), "field is 'none'"),
+                            (dict(field=[1, 2]), 'field is an array'))],
     (lambda s: yadefrag.readPolygon(7), 'file is 7, it must be a path'), (lambda s: yadefrag.readPolygon(None), 'file is None'),
     (lambda s: setattr(s, 'loads', 'much'), "loads is 'much', it must be an array"),
     # The call itself.

@@ -297,6 +297,9 @@ CALLS = [
        '^%s is .* it must be None, or a class derived from ' % name) for name, value in (
         ('loop', w.NewtonIntegrator), ('loop', 'CurveLoop'), ('integrator', w.InteractionLoop), ('integrator', 3),
         ('collider', w.CurveLoop), ('collider', 'LebesgueCollider'))],
+    *[(lambda fe, wrong=wrong: yadefrag.engines(**{'fe': fe, **wrong}), '%s is ' % next(iter(wrong))) for wrong in (
+        dict(fe=3), dict(gravity='down'), dict(gravity=(0, 0, -9.81)), dict(gravity=(1,)), dict(spheres='many'),
+        dict(damping=10**400))],
     *[(lambda fe, wrong=wrong: yadefrag.inCurveOrder([(0, 0, 0), wrong]), r'bodies\[1\]') for wrong in (
         (1, 2), (1, 2, NAN), 'abc', 3, None, (1, 2, 3, 4), ((1, 2, INF), .1))],
 ]

@@ -68,8 +68,7 @@ def discAndBall():
 
 def bonded():
     """Two bars of different meshes, which are torn apart."""
-    O.materials.append(w.FEMat(young=1e9, poisson=0, density=1000, planeStress=True, label='m'))
-    solver = w.FESolver()
+    solver = fe(w.FEMat(young=1e9, poisson=0, density=1000, planeStress=True, label='m'))
     for low, size in ((0, .002), (.05, .003)):
         solver.addPolygon(yadefrag.rectangle((low, 0), (low + .05, .02)), size=size, material='m',
                           velocity=lambda x, y: (8 * (x / .05 - 1), 0))

@@ -9,9 +9,8 @@ import subprocess
 import numpy as np
 import pytest
 
-import ensemble_scenes as scenes
-import mpi_processes
-import tradeoff_scenes
+import study_scenes as scenes
+import project
 import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import EnsembleTable
@@ -69,7 +68,7 @@ def test_runsOfSeedsAndTables(folder):
 
 @pytest.mark.long
 def test_whatFailsIsARow():
-    found = together(scenes.odd, range(5), scenes.oddValue, limit=8.).rows
+    found = together(scenes.oddSeed, range(5), scenes.seedValue, limit=8.).rows
     assert [row.result for row in found] == ['ok', 'failed', 'refused', 'too long', 'blew up']
     words = ('', 'yade ended with status -6', 'no such strength.', 'no result within 8 s.', 'not finite')
     assert all(word in row.message for word, row in zip(words, found))
@@ -137,10 +136,10 @@ def test_tradeoffByAnExecutorAndAgain(folder):
     arguments = dict(duration=.05, repeats=2, resume=file)
     vary = {'timeStep': [.8, .4], 'fault': ['none']}
     with concurrent.futures.ThreadPoolExecutor(2) as executor:
-        first = yadefrag.tradeoff(tradeoff_scenes.odd, vary, tradeoff_scenes.oddWay,
+        first = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay,
                                   executor=executor, **arguments)
     assert [(row.result, len(row.walls)) for row in first.rows] == [('ok', 2)] * 2
-    again = yadefrag.tradeoff(tradeoff_scenes.odd, vary, tradeoff_scenes.oddWay, **arguments)
+    again = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay, **arguments)
     assert again.rows == first.rows  # to the last digit of the times: none was run
 
 
@@ -175,15 +174,15 @@ def test_fileThatHoldsNoRuns(folder):
 kScript = '''
 import os, sys
 sys.path.insert(0, %r)
-import ensemble_scenes as scenes
-import mpi_processes
+import study_scenes as scenes
+import project
 from yadefrag import ensemble
 if __name__ == '__main__':
     %s
         slow = "__import__('time').sleep(.1) or __import__('os').getpid()"
         pids = [executor.submit(eval, slow, {}) for _ in range(20)]
         pids = {pid.result() for pid in pids}
-        table = ensemble(scenes.odd, [0, 1, 2, 5], scenes.oddValue, duration=scenes.DURATION, executor=executor)
+        table = ensemble(scenes.oddSeed, [0, 1, 2, 5], scenes.seedValue, duration=scenes.DURATION, executor=executor)
     print('@@@', len(pids - {os.getpid()}), [(row.result, row.value) for row in table.rows])
 '''
 kMpi = '''from mpi4py.futures import MPIPoolExecutor
@@ -200,7 +199,7 @@ def byScript(folder, opening):
     with open(file, 'w') as out:
         out.write(kScript % (str(ROOT / 'tests' / 'pkg' / 'helpers'), opening))
     done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, timeout=300, env=mpi_processes.environment('ensemble'))
+                          text=True, timeout=300, env=project.environment('ensemble'))
     assert kFound in done.stdout, done.stdout[-3000:]
 
 
@@ -337,7 +336,7 @@ def test_tuplesAndDictsAreSeveralQuantities(measure, value):
 
 def test_warningsOfRunsArePassedOn(capsys):
     with pytest.warns(UserWarning) as caught:
-        found = together(scenes.warned, 3, scenes.oddValue).rows
+        found = together(scenes.warned, 3, scenes.seedValue).rows
     assert [row.warnings for row in found] == [['no such size, 0', 'bodies lie'], ['no such size, 1', 'bodies lie'],
                                                ['bodies lie']]
     said = [str(one.message) for one in caught]

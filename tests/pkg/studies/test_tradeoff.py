@@ -7,7 +7,7 @@ import subprocess
 import numpy as np
 import pytest
 
-import tradeoff_scenes as scenes
+import study_scenes as scenes
 import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import TradeoffTable

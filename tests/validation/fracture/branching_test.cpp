@@ -10,8 +10,9 @@
 #include <numbers>
 #include <vector>
 
+#include "core/checks.hpp"
+#include "fracture/laboratory.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -27,17 +28,8 @@ struct PulledPlate {
   static constexpr double kRayleigh = 2125;                           // m/s
   static constexpr ElasticMaterial kMaterial{32e9, .2, 2450, false};
 
-  /// With the slit of the notch a tenth of an element wide at its mouth.
   static Polygon outline(double size) {
-    const double slit = size / 20, middle = kHigh / 2;
-    return {{{0, 0},
-             {kLong, 0},
-             {kLong, kHigh},
-             {0, kHigh},
-             {0, middle + slit},
-             {kTip, middle},
-             {0, middle - slit}},
-            {}};
+    return plateWithNotch({0, 0}, {kLong, kHigh}, {kTip, kHigh / 2}, size);
   }
 
   static BodySpec spec() {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <string>
 
+#include "core/checks.hpp"
 #include "core/tolerances/contact.hpp"
-#include "fracture/impact_result.hpp"
+#include "fracture/overlaps.hpp"
 #include "fracture/two_triangles.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/checks.hpp"
 #include "fracture/laboratory.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -169,13 +169,9 @@ Break pull(const Trial& trial) {
   const ElasticMaterial& m = spec.material;
   const double young = m.young / (1 - m.poisson * m.poisson), ft = spec.brittle.tensileStrength;
   spec.brittle.fractureEnergy = ft * ft * 8 * trial.size / young;
-  const double slit = trial.size / 20, half = kWide / 2;
+  const double half = kWide / 2;
   World world;
-  world.addBody(
-      trial.mesh(
-          {{{0, -half}, {kWide, -half}, {kWide, half}, {0, half}, {0, slit}, {kCut, 0}, {0, -slit}},
-           {}}),
-      spec);
+  world.addBody(trial.mesh(plateWithNotch({0, -half}, {kWide, half}, {kCut, 0}, trial.size)), spec);
   const double crossing = kWide / std::sqrt(m.waveModulus() / m.density);
   const double duration = trial.crossings * crossing;
   // Somewhat more than it takes.

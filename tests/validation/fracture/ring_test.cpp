@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/checks.hpp"
 #include "fracture/overlaps.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag {
 namespace {

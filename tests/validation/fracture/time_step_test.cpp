@@ -9,9 +9,10 @@
 #include <numbers>
 #include <string>
 
+#include "core/checks.hpp"
+#include "fracture/laboratory.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -52,16 +53,9 @@ std::vector<NodeId> nodesWhere(const TriangleMesh& mesh, const std::function<boo
 
 /// 100 × 100 mm with a notch of 25 mm, pulled up and down.
 void notchedPlate(Scene& scene) {
-  constexpr double kSide = .1, kSize = 2e-3, kSlit = kSize / 20;
-  const TriangleMesh mesh = triangulate({{{0, 0},
-                                          {kSide, 0},
-                                          {kSide, kSide},
-                                          {0, kSide},
-                                          {0, kSide / 2 + kSlit},
-                                          {kSide / 4, kSide / 2},
-                                          {0, kSide / 2 - kSlit}},
-                                         {}},
-                                        kSize);
+  constexpr double kSide = .1, kSize = 2e-3;
+  const TriangleMesh mesh =
+      triangulate(plateWithNotch({0, 0}, {kSide, kSide}, {kSide / 4, kSide / 2}, kSize), kSize);
   scene.world.addBody(mesh, concrete());
   scene.world.dynamicsSettings.damping = 2e4;
   scene.pulled = {nodesWhere(mesh, [](Vec2 at) { return at.y > kSide - 1e-9; }),

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/checks.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

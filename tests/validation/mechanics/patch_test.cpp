@@ -8,11 +8,11 @@
 #include <numbers>
 #include <random>
 
+#include "core/checks.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
-#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -35,6 +35,11 @@ def columnsRun():
     """The state of each process before the merge, and that of the merged scene."""
     assign(columns())
     run(kSteps, merge=False)
+    return merged()
+
+
+def merged():
+    """The state of each process before the merge."""
     apart = state()
     if mp.numThreads > 1:
         mp.mergeScene()
@@ -107,9 +112,7 @@ def clumps():
     mp.bodyErase([clump[0] for clump in whole[4::9] if len(clump) > 2])
     run(80, merge=False)
     after = owners()
-    report = dict(apart=state(), changed=sum(after[k] != before[k] for k in after))
-    if mp.numThreads > 1:
-        mp.mergeScene()
+    report = dict(merged(), changed=sum(after[k] != before[k] for k in after))
     return dict(report, divided=sum(b.subdomain != O.bodies[b.clumpId].subdomain
                                     for b in O.bodies if isMerged() and b.isClumpMember),
                 materials=sum(b.material is not None for b in O.bodies if b.isClump))
@@ -127,10 +130,7 @@ def inserted():
         run(60, merge=merge)
         dropAll()
     run(19, merge=False)
-    apart = state()
-    if mp.numThreads > 1:
-        mp.mergeScene()
-    return dict(apart=apart)
+    return merged()
 
 
 def reserve():
@@ -204,10 +204,7 @@ def periodic():
     reserve()
     for merge in (False, True, False):
         run(40, merge=merge)
-    apart = state()
-    if mp.numThreads > 1:
-        mp.mergeScene()
-    return dict(apart=apart, cell=[list(row) for row in O.cell.hSize])
+    return dict(merged(), cell=[list(row) for row in O.cell.hSize])
 
 
 def dropInCell():

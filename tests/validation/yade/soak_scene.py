@@ -1,4 +1,4 @@
-"""test_soak.py: builds, cracks, saves, loads, removes and adds for some seconds.
+"""test_memory.py: builds, cracks, saves, loads, removes and adds for some seconds.
 
 Prints a line of JSON: rounds, cracks, and the memory in use after each round (kB).
 """

@@ -4,7 +4,7 @@ import os
 import numpy as np
 import pytest
 
-from example_runs import cells, checkReports, figures, kShort, numbers, rows, run
+from project import cells, checkReports, figures, kShort, numbers, rows, run
 
 kColliders = ('Lebesgue', 'LinearCode', 'Hierarchy', 'InsertionSort')
 

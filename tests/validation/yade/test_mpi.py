@@ -5,13 +5,12 @@ import json
 import os
 import re
 import subprocess
-import sys
 import tempfile
 
 import pytest
 import yade
 
-import mpi_processes
+import project
 from project import ROOT, yadeCommand
 
 kHere = os.path.dirname(os.path.abspath(__file__))
@@ -33,7 +32,7 @@ def run(ranks, collider, scene, *arguments):
     """What each process reports, by rank."""
     script = [*yadeCommand(), os.path.join(kHere, 'mpi_scene.py')]
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
-        code, output = mpi_processes.run(
+        code, output = project.runMpi(
             ranks, [*script, collider, folder, scene, *arguments], folder, kLimit)
         reports = []
         for name in sorted(n for n in os.listdir(folder) if n[:-5].isdigit()):

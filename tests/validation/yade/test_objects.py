@@ -12,8 +12,7 @@ from yade import utils
 from yade.minieigenHP import Vector3
 
 import scenes
-from heaps import state
-from scenes import O
+from scenes import O, state
 
 
 class Grain(w.Body):
@@ -247,7 +246,7 @@ def test_thePageHasTheExceptions():
     with open(os.path.join(ROOT, 'docs', 'colliders.md')) as page:
         table = page.read().partition('| exception | what it changes |')[2].partition('\n\n')[0]
     assert [line.split('|')[1].strip() for line in table.splitlines()[2:]] == [
-        'several threads, with laws of YADE',                      # test_threads.py
+        'several threads, with laws of YADE',                      # test_lifecycle.py
         'a law that adds forces to bodies without a contact of its own, as for grids, beside forces of `CurveLoop`',
         'a law that moves bodies, as none of YADE\'s for spheres does',
         'a shape that a script takes from a body in contact, or replaces by one of another class',  # above

@@ -1,4 +1,4 @@
-"""Small scenes that go through all of the plugin, for test_valgrind.py: CLASS...; then some of finite elements."""
+"""Small scenes that go through all of the plugin, for test_memory.py: CLASS...; then some of finite elements."""
 import math
 import os
 import sys

@@ -1,17 +1,34 @@
-"""The plugin under valgrind's memcheck: no wrong access with the plugin in its stack.
-
-YADE's and Python's own findings are not judged.
-"""
+"""Memory stays as it is over scenes that crack, are saved, loaded and changed, one after another. The plugin under
+valgrind's memcheck: no wrong access with the plugin in its stack; findings of YADE and Python themselves are not
+judged."""
+import json
 import os
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-
 from project import yadeCommand
 
+
 kHere = os.path.dirname(os.path.abspath(__file__))
+
+
+def test_memoryStays():
+    done = subprocess.run([*yadeCommand(), os.path.join(kHere, 'soak_scene.py'), '20'],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=640)
+    lines = [line for line in done.stdout.splitlines() if line.startswith('@@@ ')]
+    assert done.returncode == 0 and lines, done.stdout[-1500:] + done.stderr[-1500:]
+    result = json.loads(lines[-1][4:])
+    assert min(result['cracks']) > 0
+    used = result['memory']
+    # The first third fills what is kept permanently: imports, pools of threads, tables of classes.
+    warm = max(used[:len(used) // 3])
+    print('%d rounds, %d kB after the first third, %d kB at the end' % (len(used), warm, used[-1]))
+    assert used[-1] < 1.01 * warm
+
+
 kPlugin = '_yadefrag.so'
 kValgrind = ['valgrind', '--tool=memcheck', '--xml=yes', '--show-leak-kinds=none',
              '--num-callers=40', '--error-limit=no', '--fair-sched=yes']
