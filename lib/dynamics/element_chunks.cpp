@@ -5,8 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include "core/csr.hpp"
 #include "core/arrays.hpp"
+#include "core/csr.hpp"
 #include "core/tolerances/dynamics.hpp"
 
 namespace yadefrag {
