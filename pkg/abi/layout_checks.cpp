@@ -11,6 +11,7 @@
 
 namespace yade {
 
+// NOLINTBEGIN(bugprone-macro-parentheses,readability-function-size): types; a line for each member.
 #define CHECK_SIZE(Type, bytes) static_assert(sizeof(Type) == bytes, #Type);
 // Not of members that are bytes here, nor of references, which have no address.
 #define CHECK_MEMBER(Type, member, bytes)                              \
@@ -23,6 +24,7 @@ namespace yade {
 struct LayoutProbe {
   static void check() { YADEFRAG_LAYOUT(CHECK_SIZE, CHECK_MEMBER) }
 };
+// NOLINTEND(bugprone-macro-parentheses,readability-function-size)
 
 // The offsets of State's two reference members cannot be measured: the two are between the base and
 // the mutex, in this order.
