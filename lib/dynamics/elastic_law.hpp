@@ -51,23 +51,37 @@ inline double contract(const Matrix2& a, const Matrix2& b) {
           m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
 }
 
-/// Parameters of the stress check of brittle elements.
-struct StressLimit {
+/// (Pa) An upper bound of the effective traction (fracture/separation.hpp) on all planes, from
+/// Mohr's circle with centre c and radius r: √((c + r)² + ((r√(1 + μ²) + μc)/β)²), each term only
+/// if positive. The second term is the maximum of |τ| + μσₙ; |τ| is below it for σₙ ≥ 0, and so is
+/// |τ| − μ|σₙ| for σₙ < 0. The bound is convex: that of a mean of stresses does not exceed the
+/// largest of theirs.
+struct TractionBound {
   double shearWeight;        ///< 1/β²
   double friction, incline;  ///< μ, √(1 + μ²)
-  double squared;            ///< Pa², limit of the squared measure; infinite: no check
 
-  StressLimit(double shearFactor, double slope, double squaredMeasure)
+  TractionBound(double shearFactor, double slope)
       : shearWeight(1 / (shearFactor * shearFactor)),
         friction(slope),
-        incline(std::sqrt(1 + slope * slope)),
-        squared(squaredMeasure) {}
+        incline(std::sqrt(1 + slope * slope)) {}
+  /// (Pa²)
+  [[gnu::always_inline]] double squaredOf(double centre, double radius) const {
+    const double pull = centre + radius > 0 ? centre + radius : 0;
+    const double sheared = radius * incline + friction * centre;
+    const double slip = sheared > 0 ? sheared : 0;
+    return pull * pull + shearWeight * slip * slip;
+  }
 };
 
-/// True if the stress measure of brittle materials, √(max(c + r, 0)² + (max(r√(1 + μ²) + μc,
-/// 0)/β)²), reaches the given limit. c is the mean principal stress of RᵀP and r its maximum shear
-/// stress. The effective traction is not greater in any direction (`largestTraction` in
-/// fracture/separation.hpp). The measure is convex, so that this is also true for averages.
+/// Parameters of the stress check of brittle elements.
+struct StressLimit : TractionBound {
+  double squared;  ///< Pa², limit of the squared bound; infinite: no check
+
+  StressLimit(double shearFactor, double slope, double squaredBound)
+      : TractionBound(shearFactor, slope), squared(squaredBound) {}
+};
+
+/// True if the bound of the effective traction reaches the given limit, for the stress RᵀP.
 [[gnu::always_inline]] inline bool isStressed(const Matrix2& f, double lame, double shear,
                                               const StressLimit& limit) {
   const double a = f.xx + f.yy;
@@ -77,10 +91,7 @@ struct StressLimit {
   // Sum and difference of the principal stretches are √(a² + b²) and √(c² + d²).
   const double mean = (lame + shear) * (std::sqrt(a * a + b * b) - 2);
   const double radius = shear * std::sqrt(c * c + d * d);
-  const double pull = mean + radius > 0 ? mean + radius : 0;
-  const double sheared = radius * limit.incline + limit.friction * mean;
-  const double slip = sheared > 0 ? sheared : 0;
-  return pull * pull + limit.shearWeight * slip * slip >= limit.squared;
+  return limit.squaredOf(mean, radius) >= limit.squared;
 }
 
 /// (J/m³) W.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/vec2.hpp"
+#include "dynamics/elastic_law.hpp"
 #include "mesh/brittle_material.hpp"
 
 namespace yadefrag {
@@ -35,30 +36,13 @@ struct Traction {
   return std::max(0., std::abs(shear) + friction * normal) / material.shearFactor;
 }
 
-/// (Pa) An upper bound of the effective traction on all planes, from Mohr's circle with centre c
-/// and radius r: √((c + r)² + ((r√(1 + μ²) + μc)/β)²), each term only if positive. The second term
-/// is the maximum of |τ| + μσₙ; |τ| is below it for σₙ ≥ 0, and so is |τ| − μ|σₙ| for σₙ < 0. The
-/// bound is convex: that of a mean of stresses does not exceed the largest of theirs.
-class LargestTraction {
- public:
-  LargestTraction(const BrittleMaterial& material, double friction)
-      : friction_(friction),
-        incline_(std::sqrt(1 + friction * friction)),
-        weight_(1 / (material.shearFactor * material.shearFactor)) {}
-  /// (Pa²)
-  [[nodiscard]] double squared(const std::array<double, 3>& stress) const {
-    const double centre = .5 * (stress[0] + stress[1]);
-    const double half = .5 * (stress[0] - stress[1]);
-    const double radius = std::sqrt(half * half + stress[2] * stress[2]);
-    const double tension = std::max(0., centre + radius);
-    const double shear = std::max(0., radius * incline_ + friction_ * centre);
-    return tension * tension + weight_ * shear * shear;
-  }
-
- private:
-  double friction_, incline_;  // μ, √(1 + μ²)
-  double weight_;              // 1/β²
-};
+/// (Pa²) The squared bound of the effective traction on all planes.
+[[nodiscard]] inline double squaredBound(const TractionBound& bound,
+                                         const std::array<double, 3>& stress) {
+  const double half = .5 * (stress[0] - stress[1]);
+  return bound.squaredOf(.5 * (stress[0] + stress[1]),
+                         std::sqrt(half * half + stress[2] * stress[2]));
+}
 
 /// (1/s) Rate of the strain in the direction of the largest principal stress, from the rate of
 /// deformation (1/s: xx, yy, xy); negative while the material shortens there. Where all directions

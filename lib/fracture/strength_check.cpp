@@ -24,6 +24,20 @@ bool haveSeveralMaterials(const Model& model, std::span<const ElementId> element
                              [&](ElementId e) { return number(e) != number(elements.front()); });
 }
 
+/// Calls `visit(edge)` for the edges at a node that have not cracked, for most of them twice.
+/// `fan`: the triangles there.
+template <class Visit>
+void forWholeEdges(const Model& model, const CrackEdges& edges, std::span<const ElementId> fan,
+                   NodeId node, Visit visit) {
+  for (const ElementId element : fan) {
+    const int corner = cornerOf(model, element, node);
+    for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
+      const EdgeId edge = edges.ofElement[element.value][static_cast<std::size_t>(side)];
+      if (edge != EdgeId::none() && edges.cracked[edge.value] == 0) visit(edge);
+    }
+  }
+}
+
 /// Of both ends of an edge.
 std::array<double, 3> meanOf(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return {.5 * (a[0] + b[0]), .5 * (a[1] + b[1]), .5 * (a[2] + b[2])};
@@ -60,7 +74,7 @@ void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, El
   if (weakest == INFINITY) return;
   const Law& law = laws_[model.triangles.component[element.value].value];
   double squared = INFINITY;
-  if (!law.mayHold && !law.isMixed) squared = law.largest.squared(stressOf(model, element));
+  if (!law.mayHold && !law.isMixed) squared = squaredBound(law.bound, stressOf(model, element));
   for (const NodeId node : nodes) {
     const double nearly = tolerance::kNearlyStrength * weakestAt(node);
     if (nearly < INFINITY && squared >= nearly * nearly) checkNode(model, edges, node);
@@ -75,29 +89,24 @@ void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeI
   // first. Where materials meet, a node's mean is not that of its edges.
   const Law& law = laws_[model.nodes.component[node.value].value];
   const double nearly = tolerance::kNearlyStrength * weakest_[node.value];
-  const bool isWeak = law.largest.squared(stressAt(model, edges, node)) >= nearly * nearly;
+  const bool isWeak = squaredBound(law.bound, stressAt(model, edges, node)) >= nearly * nearly;
   if (!isWeak && !law.mayHold) return;
   const Fan& fan = fanAt(model, edges, node);
   if (!isWeak && fan.isRing && !law.isMixed) return;
+  // A copy: the fans of other nodes are added below.
   around_.assign(elementsOf(fan).begin(), elementsOf(fan).end());
   if (!isWeak && !haveSeveralMaterials(model, around_) && !isTipAt(model, edges, node)) return;
-  for (const ElementId element : around_) {
-    const int corner = cornerOf(model, element, node);
-    for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
-      const EdgeId edge = edges.ofElement[element.value][static_cast<std::size_t>(side)];
-      if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
-      if (edgeSeen_[edge.value] == call_) continue;
-      edgeSeen_[edge.value] = call_;
-      const Overstressed one = compare(model, edges, edge);
-      if (one.ratio >= 1) found_.push_back(one);
-    }
-  }
+  forWholeEdges(model, edges, around_, node, [&](EdgeId edge) {
+    if (std::exchange(edgeSeen_[edge.value], call_) == call_) return;
+    const Overstressed one = compare(model, edges, edge);
+    if (one.ratio >= 1) found_.push_back(one);
+  });
 }
 
 void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
   laws_.clear();
   for (const Component& body : model.components)
-    laws_.push_back({Moduli(body.material), LargestTraction(body.brittle, body.friction),
+    laws_.push_back({Moduli(body.material), TractionBound(body.brittle.shearFactor, body.friction),
                      !body.isMixed() && !body.yields(),
                      body.brittle.fractureEnergy > 0 || body.brittleByPlace, body.isMixed()});
   weakest_.assign(model.nodes.size(), INFINITY);
@@ -142,20 +151,13 @@ void StrengthCheck::update(const Model& model, const CrackEdges& edges, NodeId n
   fan.count = static_cast<std::uint32_t>(fan_.size());
   std::ranges::copy(fan_, fans_.begin() + fan.begin);
   double least = INFINITY;
-  for (const ElementId element : fan_) {
-    const int corner = cornerOf(model, element, node);
-    for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
-      const EdgeId edge = edges.ofElement[element.value][static_cast<std::size_t>(side)];
-      if (edge != EdgeId::none() && edges.cracked[edge.value] == 0)
-        least = std::min(least, edges.strength[edge.value]);
-    }
-  }
+  forWholeEdges(model, edges, fan_, node,
+                [&](EdgeId edge) { least = std::min(least, edges.strength[edge.value]); });
   weakest_[node.value] = least;
 }
 
-/// Valid until the next call.
-const StrengthCheck::Fan& StrengthCheck::fanAt(const Model& model, const CrackEdges& edges,
-                                               NodeId node) {
+/// Its elements may be in another place after the next call.
+StrengthCheck::Fan& StrengthCheck::fanAt(const Model& model, const CrackEdges& edges, NodeId node) {
   Fan& fan = fanOf_[node.value];
   if (fan.begin == kUnknown) {
     fan.begin = static_cast<std::uint32_t>(fans_.size());
@@ -167,8 +169,7 @@ const StrengthCheck::Fan& StrengthCheck::fanAt(const Model& model, const CrackEd
 
 /// True at the tip of a notch or a crack.
 bool StrengthCheck::isTipAt(const Model& model, const CrackEdges& edges, NodeId node) {
-  (void)fanAt(model, edges, node);
-  Fan& fan = fanOf_[node.value];
+  Fan& fan = fanAt(model, edges, node);
   if (fan.isRing) return false;
   if (std::exchange(fan.tested, call_) != call_) fan.isTip = isTip(model, elementsOf(fan), node);
   return fan.isTip;
@@ -324,16 +325,15 @@ double StrengthCheck::tractionAtTip(const Model& model, const CrackEdges& edges,
                                     NodeId node) {
   if (model.nodes.held[node.value] != kFree) return 0;
   if (!isTipAt(model, edges, node)) return 0;
-  const auto fan = elementsOf(fanAt(model, edges, node));
-  fan_.assign(fan.begin(), fan.end());
-  const Traction traction = tipTraction(model, edges, edge, node, fan_);
+  const std::span<const ElementId> fan = elementsOf(fanAt(model, edges, node));
+  const Traction traction = tipTraction(model, edges, edge, node, fan);
   const double strength = edges.strength[edge.value];
   if (traction.normal >= strength) return traction.normal;
   const auto [first, second] = edges.element[edge.value];
   const auto [brittle, friction] = materialBetween(model, first, second);
   const double both = effectiveTraction(traction.normal, traction.shear, brittle, friction);
   if (both < strength) return traction.normal;
-  const double other = otherPull(model, edges, edge, node, fan_);
+  const double other = otherPull(model, edges, edge, node, fan);
   return both >= tolerance::kShearLead * other * strength ? both : traction.normal;
 }
 

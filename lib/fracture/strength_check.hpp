@@ -52,7 +52,7 @@ class StrengthCheck {
   std::vector<EdgeId> weaken(const Model& model, CrackEdges& edges,
                              std::span<const ElementRange> where, const StepTime& step,
                              std::vector<double>& leastStrength);
-  /// After bodies were added or removed: reserves memory for all that may be checked.
+  /// After bodies were added or removed.
   void prepare(const Model& model, const CrackEdges& edges);
   /// After these edges have cracked. `originals` as in SplitResult.
   void follow(const Model& model, const CrackEdges& edges, std::span<const EdgeId> cracks,
@@ -74,7 +74,7 @@ class StrengthCheck {
   /// Constants of a body.
   struct Law {
     Moduli moduli;
-    LargestTraction largest;
+    TractionBound bound;
     bool isElastic;  // all of it, of one material
     bool mayHold;    // tips of cracks count, which hold below the strength
     bool isMixed;
@@ -91,7 +91,7 @@ class StrengthCheck {
   void resize(const Model& model, const CrackEdges& edges);
   void update(const Model& model, const CrackEdges& edges, NodeId node);
   bool isTipAt(const Model& model, const CrackEdges& edges, NodeId node);
-  const Fan& fanAt(const Model& model, const CrackEdges& edges, NodeId node);
+  Fan& fanAt(const Model& model, const CrackEdges& edges, NodeId node);
   [[nodiscard]] std::span<const ElementId> elementsOf(const Fan& fan) const {
     return std::span(fans_).subspan(fan.begin, fan.count);
   }
