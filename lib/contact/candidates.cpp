@@ -9,21 +9,15 @@ namespace yadefrag {
 
 namespace {
 
-/// The pairs with the same slave as the first one.
-std::span<const SlaveMaster> firstRow(std::span<const SlaveMaster> pairs) {
-  std::size_t count = 0;
-  while (count < pairs.size() && pairs[count].slave == pairs.front().slave) ++count;
-  return pairs.first(count);
-}
-
 /// Calls `visit(pairs)` for each slave of pairs, which it sorts.
 template <class Visit>
 void forRows(std::vector<SlaveMaster>& pairs, Visit visit) {
   std::sort(pairs.begin(), pairs.end());
-  for (std::span<const SlaveMaster> rest(pairs); !rest.empty();) {
-    const auto row = firstRow(rest);
-    visit(row);
-    rest = rest.subspan(row.size());
+  for (auto begin = pairs.begin(); begin != pairs.end();) {
+    const auto end = std::find_if(
+        begin, pairs.end(), [&](const SlaveMaster& pair) { return pair.slave != begin->slave; });
+    visit(std::span<const SlaveMaster>(begin, end));
+    begin = end;
   }
 }
 
@@ -59,7 +53,8 @@ void Candidates::appendSlavesOf(EntryId master, std::vector<EntryId>& found) {
   }
 }
 
-Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs) {
+Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                             std::size_t entries) {
   Candidates next;
   next.masters.reserve(pairs.size());
   next.offsets.push_back(0);
@@ -68,6 +63,7 @@ Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& p
     for (const SlaveMaster& pair : row) next.masters.push_back(pair.master);
     next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
   });
+  next.index(entries);
   std::swap(candidates, next);
   return next;
 }
@@ -75,23 +71,15 @@ Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& p
 void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
                    std::span<const EntryId> around) {
   if (candidates.offsets.empty()) candidates.offsets.push_back(0);
-  std::vector<EntryId> all;
+  std::vector<EntryId> added, all;
   forRows(pairs, [&](std::span<const SlaveMaster> row) {
     const EntryId slave = row.front().slave;
     assert(std::ranges::binary_search(around, slave));
-    all.clear();
-    const std::uint32_t former = candidates.rowOf(slave);
-    if (former != Candidates::kNone) {
-      const auto masters = candidates.mastersOf(former);
-      all.assign(masters.begin(), masters.end());
-    }
-    const std::size_t known = all.size();
-    for (const SlaveMaster& pair : row)
-      if (!std::binary_search(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(known),
-                              pair.master))
-        all.push_back(pair.master);
-    if (all.size() == known) return;
-    std::sort(all.begin(), all.end());
+    const std::span<const EntryId> former = candidates.mastersOf(slave);
+    added.clear(), all.clear();
+    for (const SlaveMaster& pair : row) added.push_back(pair.master);
+    std::ranges::set_union(former, added, std::back_inserter(all));
+    if (all.size() == former.size()) return;
     candidates.slaves.push_back(slave);
     candidates.masters.insert(candidates.masters.end(), all.begin(), all.end());
     candidates.offsets.push_back(static_cast<std::uint32_t>(candidates.masters.size()));
@@ -108,11 +96,10 @@ void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {
   std::vector<SlaveMaster> kept;
   for (const std::uint32_t r : candidates.rows()) {
     if (surfaces.isGone(candidates.slaves[r])) continue;
-    for (const EntryId master : candidates.mastersOf(r))
+    for (const EntryId master : candidates.mastersOfRow(r))
       if (!surfaces.isGone(master)) kept.push_back({candidates.slaves[r], master});
   }
-  replaceCandidates(candidates, kept);
-  candidates.index(surfaces.entries());
+  replaceCandidates(candidates, kept, surfaces.entries());
 }
 
 }  // namespace yadefrag

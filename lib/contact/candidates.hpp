@@ -37,8 +37,13 @@ struct Candidates {
   [[nodiscard]] const std::vector<std::uint32_t>& rows() const { return rows_; }
   /// The row of a slave, or kNone.
   [[nodiscard]] std::uint32_t rowOf(EntryId slave) const { return rowOf_[slave.value]; }
-  [[nodiscard]] std::span<const EntryId> mastersOf(std::size_t row) const {
+  [[nodiscard]] std::span<const EntryId> mastersOfRow(std::size_t row) const {
     return {masters.data() + offsets[row], masters.data() + offsets[row + 1]};
+  }
+  /// Empty without a row.
+  [[nodiscard]] std::span<const EntryId> mastersOf(EntryId slave) const {
+    const std::uint32_t row = rowOf(slave);
+    return row == kNone ? std::span<const EntryId>{} : mastersOfRow(row);
   }
   /// Appends the slaves that have this master.
   void appendSlavesOf(EntryId master, std::vector<EntryId>& found);
@@ -58,8 +63,10 @@ struct SlaveMaster {
   friend auto operator<=>(const SlaveMaster&, const SlaveMaster&) = default;
 };
 
-/// Sorts the pairs into rows, ascending. Returns the former `candidates`.
-Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs);
+/// Sorts the pairs into rows, ascending, and indexes them. Returns the former `candidates`.
+/// `entries`: of the surfaces.
+Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                             std::size_t entries);
 
 /// Adds pairs to indexed candidates after the pieces of the entries `around` have changed: these
 /// include all slaves of the pairs, and all slaves with a master among them.

@@ -83,7 +83,7 @@ void RowFinder::visit(std::size_t row, Visit& with) const {
   const double wide = with.sizes.wide;
   // First which masters are near, without branches: most are not, in no order that a processor
   // could predict.
-  const std::span<const EntryId> masters = candidates.mastersOf(row);
+  const std::span<const EntryId> masters = candidates.mastersOfRow(row);
   if (with.near.size() < masters.size()) with.near.resize(masters.size());
   std::size_t count = 0;
   double far = INFINITY;
@@ -144,9 +144,7 @@ void RowFinder::meet(EntryId slave, EntryId corner, Vec2 from, Visit& with) cons
 
 /// True if a near corner is met when the slave is visited.
 bool RowFinder::meets(EntryId slave, EntryId corner, const Candidates& candidates) const {
-  const std::uint32_t row = candidates.rowOf(slave);
-  if (row == Candidates::kNone) return false;
-  const std::span<const EntryId> masters = candidates.mastersOf(row);
+  const std::span<const EntryId> masters = candidates.mastersOf(slave);
   const auto sees = [&](EntryId piece) {
     return pieces_[piece].isArc == 0 && std::ranges::binary_search(masters, piece);
   };

@@ -70,9 +70,7 @@ std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, Candidates& 
   std::vector<EntryId> around(own);
   for (const EntryId entry : own) {
     candidates.appendSlavesOf(entry, around);
-    const std::uint32_t row = candidates.rowOf(entry);
-    if (row == Candidates::kNone) continue;
-    const auto masters = candidates.mastersOf(row);
+    const auto masters = candidates.mastersOf(entry);
     around.insert(around.end(), masters.begin(), masters.end());
   }
   sortUnique(around);

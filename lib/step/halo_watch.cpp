@@ -160,9 +160,9 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
   pairs_.clear();
   selectPairs(scene.model, scene.surfaces, passRule_, scene.model.nodes.position, halo, overlapping,
               pairs_);
-  former_.candidates = replaceCandidates(scene.contact.candidates, pairs_);
+  former_.candidates =
+      replaceCandidates(scene.contact.candidates, pairs_, scene.surfaces.entries());
   former_.hasCandidates = true;
-  scene.contact.candidates.index(scene.surfaces.entries());
   positions.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     positions[i] = scene.model.nodes.position[nodes[i].value];

@@ -92,7 +92,7 @@ void World::requireResolvedMotion(double dt) {
   double most = 0;
   EntryId fastest;
   for (const std::uint32_t row : candidates.rows())
-    for (const EntryId master : candidates.mastersOf(row)) {
+    for (const EntryId master : candidates.mastersOfRow(row)) {
       const EntryId slave = candidates.slaves[row];
       const double length = std::min(chord(free.ends(slave)), chord(free.ends(master)));
       const double motion = relativeMotion(before, now, slave, master) / length;
