@@ -50,8 +50,8 @@ void Fracture::prepare(Model& model) {
 }
 
 bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
-                     std::span<const ElementRange> where, const StepTime& step,
-                     SplitResult& result) {
+                     std::span<const ElementRange> where, const StepTime& step, SplitResult& result,
+                     int threads) {
   cracks_.clear();
   weakened_.clear();
   hasRaised_ = false;
@@ -61,7 +61,7 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
     return false;
   }
   weakened_ = check_.weaken(model, edges, where, step, leastStrength);
-  cracks_ = check_.overstressed(model, edges, where, step, overloads);
+  cracks_ = check_.overstressed(model, edges, where, step, overloads, threads);
   if (cracks_.size() > maxCracks - numCracks_) cracks_.resize(maxCracks - numCracks_);
   if (cracks_.empty()) return false;
   numCracks_ += cracks_.size();

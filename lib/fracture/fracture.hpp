@@ -37,7 +37,7 @@ class Fracture {
   /// With a rate effect these edges get the strength and the energy of their strain rate.
   /// Returns true if `result` contains changes that other arrays must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
-             const StepTime& step, SplitResult& result);
+             const StepTime& step, SplitResult& result, int threads);
   /// Stores `time` (s) as the start of the cracks of the last call.
   void noteStart(double time);
   /// (J) Energy that bodies with smoothed strains gain when nodes split, at the half step: the

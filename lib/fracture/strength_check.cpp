@@ -48,26 +48,52 @@ std::array<double, 3> meanOf(const std::array<double, 3>& a, const std::array<do
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
                                                 std::span<const ElementRange> where,
                                                 const StepTime& step,
-                                                std::vector<Overload>& overloads) {
+                                                std::vector<Overload>& overloads, int threads) {
   resize(model, edges);
   ++call_;
   found_.clear();
   over_.clear();
   step_ = step;
   former_ = overloads;
-  // The stress of a checked node is needed for all edges that end there, of any triangle.
-  for (const ElementRange& range : where)
-    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      if (!model.triangles.isDropped(e)) checkCorners(model, edges, ElementId(e));
+  listNodes(model, where, threads);
+  computeStresses(model, edges, threads);
+  listWeak(model, edges, threads);
+  for (const NodeId node : weak_) checkEdges(model, edges, node);
   std::ranges::sort(over_, {}, &Overload::edge);
   overloads.swap(over_);
   return pickApart(model, edges);
 }
 
+/// Calls `work(begin, end, list)` for parts of [0, count), and joins the nodes of the lists.
+template <class Work>
+void StrengthCheck::listInParts(std::size_t count, int threads, std::vector<NodeId>& nodes,
+                                Work work) {
+  parts_.resize(static_cast<std::size_t>(threadsFor(count, threads)));
+  forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int part) {
+    PartList<NodeId>& list = parts_[static_cast<std::size_t>(part)];
+    list.clear();
+    work(begin, end, list);
+  });
+  nodes.clear();
+  for (const auto& part : parts_) nodes.insert(nodes.end(), part.begin(), part.end());
+}
+
+/// The nodes of these triangles at which an edge may have reached its strength.
+void StrengthCheck::listNodes(const Model& model, std::span<const ElementRange> where,
+                              int threads) {
+  listInParts(where.size(), threads, nodes_, [&](std::size_t begin, std::size_t end, auto& list) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::uint32_t e = where[i].firstElement; e < where[i].lastElement; ++e)
+        if (!model.triangles.isDropped(e)) listCorners(model, ElementId(e), list);
+  });
+  std::erase_if(
+      nodes_, [&](NodeId node) { return std::exchange(nodeTested_[node.value], call_) == call_; });
+}
+
 /// Most stressed elements in rubble have no edge left that could crack. The largest traction is a
 /// convex function of the stress: where a mean over elements reaches the strength of an edge, one
 /// of them does.
-void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element) {
+void StrengthCheck::listCorners(const Model& model, ElementId element, std::vector<NodeId>& list) {
   const auto& nodes = model.triangles.nodes[element.value];
   const auto weakestAt = [&](NodeId node) { return weakest_[node.value]; };
   const double weakest = std::min({weakestAt(nodes[0]), weakestAt(nodes[1]), weakestAt(nodes[2])});
@@ -77,25 +103,44 @@ void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, El
   if (!law.mayHold && !law.isMixed) squared = squaredBound(law.bound, stressOf(model, element));
   for (const NodeId node : nodes) {
     const double nearly = tolerance::kNearlyStrength * weakestAt(node);
-    if (nearly < INFINITY && squared >= nearly * nearly) checkNode(model, edges, node);
+    if (nearly < INFINITY && squared >= nearly * nearly) list.push_back(node);
   }
 }
 
-void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node) {
-  assert(node.value < nodeTested_.size());
-  if (nodeTested_[node.value] == call_) return;
-  nodeTested_[node.value] = call_;
-  // At one end of an edge, at least, the traction is not less than their mean: check the ends
-  // first. Where materials meet, a node's mean is not that of its edges.
+/// Those of all triangles around the listed nodes.
+void StrengthCheck::computeStresses(const Model& model, const CrackEdges& edges, int threads) {
+  around_.clear();
+  for (const NodeId node : nodes_)
+    for (const ElementId element : elementsOf(fanAt(model, edges, node)))
+      if (std::exchange(elementSeen_[element.value], call_) != call_) around_.push_back(element);
+  forEachPart(around_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i)
+      elementStress_[around_[i].value] = computeStress(model, around_[i]);
+  });
+}
+
+void StrengthCheck::listWeak(const Model& model, const CrackEdges& edges, int threads) {
+  listInParts(nodes_.size(), threads, weak_, [&](std::size_t begin, std::size_t end, auto& list) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (mayCrackAt(model, edges, nodes_[i])) list.push_back(nodes_[i]);
+  });
+}
+
+/// At one end of an edge, at least, the traction is not less than their mean: the ends are tested
+/// first. Where materials meet, a node's mean is not that of its edges.
+bool StrengthCheck::mayCrackAt(const Model& model, const CrackEdges& edges, NodeId node) {
   const Law& law = laws_[model.nodes.component[node.value].value];
   const double nearly = tolerance::kNearlyStrength * weakest_[node.value];
-  const bool isWeak = squaredBound(law.bound, stressAt(model, edges, node)) >= nearly * nearly;
-  if (!isWeak && !law.mayHold) return;
-  const Fan& fan = fanAt(model, edges, node);
-  if (!isWeak && fan.isRing && !law.isMixed) return;
+  if (squaredBound(law.bound, stressAt(model, edges, node)) >= nearly * nearly) return true;
+  const Fan& fan = fanOf_[node.value];
+  if (!law.mayHold || (fan.isRing && !law.isMixed)) return false;
+  return haveSeveralMaterials(model, elementsOf(fan)) || isTipAt(model, edges, node);
+}
+
+void StrengthCheck::checkEdges(const Model& model, const CrackEdges& edges, NodeId node) {
   // A copy: the fans of other nodes are added below.
-  around_.assign(elementsOf(fan).begin(), elementsOf(fan).end());
-  if (!isWeak && !haveSeveralMaterials(model, around_) && !isTipAt(model, edges, node)) return;
+  const std::span<const ElementId> fan = elementsOf(fanAt(model, edges, node));
+  around_.assign(fan.begin(), fan.end());
   forWholeEdges(model, edges, around_, node, [&](EdgeId edge) {
     if (std::exchange(edgeSeen_[edge.value], call_) == call_) return;
     const Overstressed one = compare(model, edges, edge);
@@ -190,13 +235,17 @@ void StrengthCheck::resize(const Model& model, const CrackEdges& edges) {
   edgeSeen_.resize(edges.size());
 }
 
+StrengthCheck::Stress StrengthCheck::computeStress(const Model& model, ElementId element) const {
+  const Law& law = laws_[model.triangles.component[element.value].value];
+  return law.isElastic ? elasticStressOf(model, element, law.moduli)
+                       : yadefrag::stressOf(model, element, step_.length);
+}
+
 const StrengthCheck::Stress& StrengthCheck::stressOf(const Model& model, ElementId element) {
   Stress& stress = elementStress_[element.value];
   if (elementSeen_[element.value] == call_) return stress;
   elementSeen_[element.value] = call_;
-  const Law& law = laws_[model.triangles.component[element.value].value];
-  return stress = law.isElastic ? elasticStressOf(model, element, law.moduli)
-                                : yadefrag::stressOf(model, element, step_.length);
+  return stress = computeStress(model, element);
 }
 
 const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const CrackEdges& edges,

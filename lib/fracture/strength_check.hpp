@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/element_state.hpp"
 #include "fracture/crack_edges.hpp"
@@ -39,10 +40,10 @@ class StrengthCheck {
   /// The edges at these triangles' nodes that crack now, ascending. If cracks open at once (no
   /// fracture energy), only the most overstressed of all edges that meet at a node cracks: its
   /// opening unloads the others. `overloads`: of materials with a rate effect, by edge, ascending;
-  /// those after the last step become those after this one.
+  /// those after the last step become those after this one. The same for any number of threads.
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
                                    std::span<const ElementRange> where, const StepTime& step,
-                                   std::vector<Overload>& overloads);
+                                   std::vector<Overload>& overloads, int threads);
   /// Multiplies strength and energy of the given edges, found by the last call of `overstressed`,
   /// by the factors of their strain rates. Returns true if any changed.
   bool raise(const Model& model, CrackEdges& edges, std::span<const EdgeId> cracks) const;
@@ -95,8 +96,15 @@ class StrengthCheck {
   [[nodiscard]] std::span<const ElementId> elementsOf(const Fan& fan) const {
     return std::span(fans_).subspan(fan.begin, fan.count);
   }
-  void checkCorners(const Model& model, const CrackEdges& edges, ElementId element);
-  void checkNode(const Model& model, const CrackEdges& edges, NodeId node);
+  template <class Work>
+  void listInParts(std::size_t count, int threads, std::vector<NodeId>& nodes, Work work);
+  void listNodes(const Model& model, std::span<const ElementRange> where, int threads);
+  void listCorners(const Model& model, ElementId element, std::vector<NodeId>& list);
+  void computeStresses(const Model& model, const CrackEdges& edges, int threads);
+  void listWeak(const Model& model, const CrackEdges& edges, int threads);
+  bool mayCrackAt(const Model& model, const CrackEdges& edges, NodeId node);
+  void checkEdges(const Model& model, const CrackEdges& edges, NodeId node);
+  [[nodiscard]] Stress computeStress(const Model& model, ElementId element) const;
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   template <class Counts, class Of>
@@ -125,6 +133,9 @@ class StrengthCheck {
   std::vector<Fan> fanOf_;  // by node, as soon as it has been checked
   std::vector<ElementId> fans_;
   std::vector<ElementId> fan_, around_;
+  std::vector<NodeId> nodes_,
+      weak_;  // that are checked in this call; of them where edges may crack
+  std::vector<PartList<NodeId>> parts_;
   std::vector<Overstressed> found_;
   std::vector<Weakened> weakened_;
   // With a rate effect:

@@ -26,7 +26,8 @@ bool World::crack() {
   if (!fracture.isOn()) return false;
   const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.settle(model, fracture.edges);
-  const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), {time, lastDt}, split_);
+  const bool opened =
+      fracture.crack(model, surfaces, dynamics_.stressed(), {time, lastDt}, split_, threads);
   fracture.noteStart(time);
   double gained = fracture.yieldingGain();
   if (opened) gained += fracture.splitEnergy(model, split_.originals, lastDt);

@@ -2,6 +2,7 @@
 //
 // Names: fracture/<law>/<triangles, about>, and fracture/impact/<steps>/<threads>: the run of
 // examples/impact with 21,791 triangles, whose block falls to pieces; 600 steps make 2,000 cracks.
+// fracture/rubble/<threads>: the same with 220,000 triangles, from step 2,000 on.
 // A steel cylinder hits a brittle block; the triangles' edges are the same in all sizes, only the
 // block is larger.
 // Counters: `crack` is the time of strength check, cracks, relinking and candidates (µs for each
@@ -16,7 +17,7 @@ namespace yadefrag {
 namespace {
 
 constexpr double kSize = .4e-3;  // m
-constexpr int kSteps = 400;
+constexpr int kSteps = 400, kRubbleBegin = 2000;
 
 void addBrittleImpact(World& world, double triangles, double fractureEnergy) {
   constexpr double kRadius = 2e-3;
@@ -39,10 +40,12 @@ void addBrittleImpact(World& world, double triangles, double fractureEnergy) {
   world.addBody(cylinder, fescenes::steelBody(cylinder, {0, -50}));
 }
 
-void addImpact(World& world) {
-  constexpr double kImpactSize = 3.05e-4, kRadius = 5e-3, kWide = 40e-3, kHigh = 20e-3;
+constexpr double kImpactSize = 3.05e-4, kRubbleSize = .96e-4;  // m
+
+void addImpact(World& world, double size) {
+  constexpr double kRadius = 5e-3, kWide = 40e-3, kHigh = 20e-3;
   const TriangleMesh block =
-      triangulate({{{0, 0}, {kWide, 0}, {kWide, kHigh}, {0, kHigh}}, {}}, kImpactSize);
+      triangulate({{{0, 0}, {kWide, 0}, {kWide, kHigh}, {0, kHigh}}, {}}, size);
   BodySpec spec = fescenes::steelBody(block, {});
   spec.material = {370e9, .22, 3900, false};
   spec.brittle.tensileStrength = 300e6;
@@ -54,8 +57,7 @@ void addImpact(World& world) {
     if (block.nodes[i].y < 1e-9) spec.held[i] = kHeldXY;
   world.addBody(block, spec);
   const TriangleMesh cylinder =
-      triangulate({fescenes::circle({kWide / 2, kHigh + kRadius + 2e-5}, kRadius, kImpactSize), {}},
-                  kImpactSize);
+      triangulate({fescenes::circle({kWide / 2, kHigh + kRadius + 2e-5}, kRadius, size), {}}, size);
   BodySpec steel = fescenes::steelBody(cylinder, {0, -50});
   steel.smoothNodes.assign(cylinder.nodes.size(), 1);
   world.addBody(cylinder, steel);
@@ -89,8 +91,30 @@ void crackSteps(benchmark::State& state, double fractureEnergy) {
 void impactSteps(benchmark::State& state) {
   World world;
   world.threads = static_cast<int>(state.range(1));
-  addImpact(world);
+  addImpact(world, kImpactSize);
   timeSteps(state, world);
+}
+
+/// Argument: threads. All runs continue one world, so that each thread number sees like rubble.
+void rubbleSteps(benchmark::State& state) {
+  static World world;
+  if (world.model.nodes.size() == 0) {
+    addImpact(world, kRubbleSize);
+    world.threads = 2;
+    const double dt = .8 * world.criticalTimeStep();
+    for (int i = 0; i < kRubbleBegin; ++i) world.step(dt);
+  }
+  world.threads = static_cast<int>(state.range(0));
+  world.times = {};
+  timeSteps(state, world);
+  const StageTimes& t = world.times;
+  const double all = t.forces + t.contact() + t.fracture;
+  state.counters.erase("crack");  // most cracks are older
+  state.counters["slaves"] = static_cast<double>(world.contact.candidates.slaves.size());
+  for (const auto& [name, stage] :
+       {std::pair{"forces", t.forces}, std::pair{"search", t.search},
+        std::pair{"detection", t.localSearch}, std::pair{"correction", t.correction}})
+    state.counters[name] = stage / all;
 }
 
 [[maybe_unused]] const bool kRegistered = [] {
@@ -110,6 +134,12 @@ void impactSteps(benchmark::State& state) {
           ->Iterations(steps)
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime();
+  for (const int threads : {1, 2, 1, 2, 1, 2})
+    benchmark::RegisterBenchmark("fracture/rubble", rubbleSteps)
+        ->Arg(threads)
+        ->Iterations(100)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
   return true;
 }();
 
