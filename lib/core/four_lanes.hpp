@@ -39,12 +39,21 @@ template <int x, int y, int z, int w>
   return permuted<1, 2, 0, 3>(a) * permuted<2, 0, 1, 3>(b) -
          permuted<2, 0, 1, 3>(a) * permuted<1, 2, 0, 3>(b);
 }
+/// In the order of Eigen's sums, with which YADE was compiled: that of `dot` is another one from
+/// Eigen 5 on, which alone has the header `Version`.
 [[gnu::always_inline]] inline double dot(const FourLanes& a, const FourLanes& b) {
   const FourLanes products = a * b;
+#if __has_include(<Eigen/Version>)
+  return (products[0] + products[1]) + products[2];
+#else
   return products[0] + (products[1] + products[2]);
+#endif
 }
-[[gnu::always_inline]] inline double squaredNorm(const FourLanes& a) { return dot(a, a); }
-[[gnu::always_inline]] inline double norm(const FourLanes& a) { return std::sqrt(dot(a, a)); }
+[[gnu::always_inline]] inline double squaredNorm(const FourLanes& a) {
+  const FourLanes squares = a * a;
+  return squares[0] + (squares[1] + squares[2]);
+}
+[[gnu::always_inline]] inline double norm(const FourLanes& a) { return std::sqrt(squaredNorm(a)); }
 
 /// Product of quaternions: the rotation b, then a.
 [[gnu::always_inline]] inline FourLanes quaternionProduct(const FourLanes& a, const FourLanes& b) {
