@@ -12,10 +12,9 @@ import yadefrag  # noqa: F401
 from yade import utils
 from yadefrag import runSteps
 import fe_chain as chain
-from fe_scene import fe, impact, ready, run, steps
+from fe_scene import fe, impact, O, ready, run, steps
 from scenes import clear
 
-O = builtins.O
 SIZE = 3.49e-3  # m
 
 

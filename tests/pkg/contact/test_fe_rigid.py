@@ -1,17 +1,15 @@
 """YADE's Wall, Box and Facet are rigid bodies to FE bodies: contact forces act on both."""
-import builtins
 import math
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, run, steps
+from fe_scene import fe, finder, O, run, steps
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Quaternion
 
-O = builtins.O
 G = 9.81
 
 

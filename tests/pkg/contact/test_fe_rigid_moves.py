@@ -1,18 +1,16 @@
 """Rigid boundaries that meet at an angle, part, leave the plane of the bodies and come back, or run along themselves."""
-import builtins
 import math
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, ready, run, steps
+from fe_scene import fe, finder, O, ready, run, steps
 from test_fe_rigid import G, block, facet, smooth, wall
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Vector3
 
-O = builtins.O
 
 WAYS = [{'passes': passes} for passes in (1, 2)]
 

@@ -9,10 +9,8 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, impact, ready, reloaded, run, steps, throwBall
+from fe_scene import fe, finder, impact, O, ready, reloaded, run, steps, throwBall
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def course(seed, folder=None):

@@ -7,11 +7,9 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_impact import wallAndClump
+from fe_impact import O, wallAndClump
 from fe_scene import fe, finder, kineticEnergy, momentum, run, solverOfScene, steps, throwBall
 from yade import wrapper as w
-
-O = builtins.O
 
 
 @pytest.mark.parametrize('smooth, friction, varying', [

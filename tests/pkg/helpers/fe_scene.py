@@ -1,5 +1,7 @@
-"""An elastic disc that hits a block, the engines around an FESolver, and momenta."""
+"""An elastic disc that hits a block, the engines around an FESolver, momenta; warnings of a block of code."""
 import builtins
+import contextlib
+import warnings
 
 import numpy as np
 
@@ -14,6 +16,11 @@ def fe(material=None, **settings):
     """A solver, and in the scene the material, or an elastic one 'm'."""
     O.materials.append(material or w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
     return w.FESolver(**settings)
+
+
+def block(solver, low, high, size, material='m', **body):
+    """Adds a rectangle; its number."""
+    return solver.addPolygon(yadefrag.rectangle(low, high), size=size, material=material, **body)
 
 
 def run(solver, collider=None, spheres=False, newton=True, factor=.8):
@@ -105,3 +112,12 @@ def kineticEnergy(*bodies):
     """(J) Of rigid bodies."""
     return builtins.sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
                         for b in bodies)
+
+
+@contextlib.contextmanager
+def heard():
+    """A list of the texts of all warnings of the block, after its end."""
+    texts = []
+    with warnings.catch_warnings(record=True, action='always') as caught:
+        yield texts
+    texts += [str(one.message) for one in caught]

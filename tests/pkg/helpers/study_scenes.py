@@ -12,24 +12,24 @@ from yadefrag import rectangleMesh
 SIDE, SPEED = 1., 3.  # m, m/s
 
 
-def block(choices):
-    """Two triangles (or more, with a smaller size) that fly freely."""
+def body(choices, mesh, **more):
+    """The solver with one body, ready to run."""
     fe = choices.solver()
-    cells = round(SIDE / choices.size(SIDE))
     material = choices.material(young=1e6, poisson=.2, density=1000, frictionAngle=0)
-    fe.addTriangles(*rectangleMesh((0, 0), (SIDE, SIDE), cells, cells), material=material,
-                    velocity=(SPEED, 0))
+    fe.addTriangles(*mesh, material=material, **more)
     choices.engines(fe)
     return fe
+
+
+def block(choices):
+    """Two triangles (or more, with a smaller size) that fly freely."""
+    cells = round(SIDE / choices.size(SIDE))
+    return body(choices, rectangleMesh((0, 0), (SIDE, SIDE), cells, cells), velocity=(SPEED, 0))
 
 
 def rest(choices):
     """A block that rounding alone shakes."""
-    fe = choices.solver()
-    material = choices.material(young=1e6, poisson=.2, density=1000, frictionAngle=0)
-    fe.addTriangles(*rectangleMesh((.3, .3), (1, 1), 7, 7), material=material)
-    choices.engines(fe)
-    return fe
+    return body(choices, rectangleMesh((.3, .3), (1, 1), 7, 7))
 
 
 def place0(fe):
@@ -88,7 +88,6 @@ def odd(choices):
     if fault == 'crash':
         os.abort()
     if fault == 'sleep':
-        import time
         time.sleep(60)
     if fault == 'step':
         O.dt = 0
