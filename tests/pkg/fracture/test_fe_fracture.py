@@ -1,5 +1,4 @@
 """Brittle bodies in YADE: faces of cracks as bodies, spheres on them, fragments, records."""
-import builtins
 import os
 
 import numpy as np
@@ -7,12 +6,10 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_impact import brittle, engines, heapSpheres, impact, requireBodiesAreEntries, steps
+from fe_impact import brittle, engines, heapSpheres, impact, O, requireBodiesAreEntries, steps
 from yadefrag.plots import pictures
 from yadefrag.plots.axes import fragmentColours
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def test_maxCracks():
