@@ -143,8 +143,7 @@ def chains(rng, n=6, links=4):
         start, step = rng.uniform(0, .7, 3), rng.normal(size=3) * .06
         velocity = rng.normal(size=3) * kSpeed
         for i in range(links):
-            with warnings.catch_warnings():
-                warnings.simplefilter('ignore')     # deprecated in YADE
+            with warnings.catch_warnings(action='ignore'):  # deprecated in YADE
                 body = gridpfacet.chainedCylinder(
                     vector(start + i * step), vector(start + (i + 1) * step), .03, material='m')
             body.state.blockedDOFs = 'xyzXYZ'
