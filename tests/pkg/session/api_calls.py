@@ -8,6 +8,7 @@ import builtins
 import hashlib
 import inspect
 import os
+import pathlib
 import random
 import re
 import sys
@@ -83,12 +84,9 @@ def exampleFiles(folder):
     table = yadefrag.TradeoffTable([tradeoff_table.TradeoffRow({'k': 1}, 'ok', 1., 1., .1, .1, 10, [1.], [1.]),
                                     tradeoff_table.TradeoffRow({'k': 2}, 'ok', 2., 2., .01, .1, 10, [2.], [2.])])
     table.csv(folder + '/table.csv')
-    with open(folder + '/plate', 'w') as plate:
-        plate.write('0 0\n1 0\n1 1\n')
-    with open(folder + '/plate.csv', 'w') as plate:
-        plate.write('0, 0\n1, 0\n1, 1\n')
-    with open(folder + '/mesh.inp', 'w') as mesh:
-        mesh.write('*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')
+    for name, text in (('plate', '0 0\n1 0\n1 1\n'), ('plate.csv', '0, 0\n1, 0\n1, 1\n'),
+                       ('mesh.inp', '*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')):
+        pathlib.Path(folder, name).write_text(text)
     return table
 
 
