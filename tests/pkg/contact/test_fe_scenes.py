@@ -7,9 +7,8 @@ from random import Random
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, impact, O, ready, reloaded, run, steps, throwBall
+from fe_scene import fe, finder, impact, newBall, O, ready, reloaded, run, steps, throwBall
 from yade import wrapper as w
 
 
@@ -111,7 +110,7 @@ def test_eraseIsRefused():
     with pytest.raises(ValueError, match='part of the boundary of body 0 of FESolver'):
         O.bodies.erase(3)
     assert len(O.bodies) == count and O.bodies[3]
-    ball = O.bodies.append(chain.ball((5, 5), .1, O.materials['m']))
+    ball = O.bodies.append(newBall((5, 5), .1, O.materials['m']))
     assert O.bodies.erase(ball) and not O.bodies.erase(ball)
     steps(3)
     O.bodies.clear()
@@ -152,7 +151,7 @@ def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
                                  velocity=(0, speed), element='smoothed' if kind == 'smoothed' else 'linear')
     add(0, 5)
     second = add(.0501, -5)
-    O.bodies.append(chain.ball((.05, .1107), .01, O.materials['m']))
+    O.bodies.append(newBall((.05, .1107), .01, O.materials['m']))
     O.bodies[-1].state.vel = (0, -8, 0)
     ready(solver, .3, spheres=True)
     while not any(i.isReal for i in O.interactions):

@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
 from fe_impact import O, wallAndClump
-from fe_scene import fe, finder, kineticEnergy, momentum, run, solverOfScene, steps, throwBall
+from fe_scene import fe, finder, kineticEnergy, momentum, newBall, run, solverOfScene, steps, throwBall
 from yade import wrapper as w
 
 
@@ -175,7 +174,7 @@ def test_curveIntegratorLeavesOutPieces():
         O.reset()
         solver, clump = wallAndClump(2e9)
         for number in range(4):
-            O.bodies.append(chain.ball((3 + number, 3, 0), .1, clump.material or O.materials[0]))
+            O.bodies.append(newBall((3 + number, 3, 0), .1, clump.material or O.materials[0]))
             O.bodies[-1].state.vel, O.bodies[-1].state.angVel = (0, -1, 0), (0, 0, 3)
         swapEngines('InteractionLoop', integrator)
         newton = O.engines[-1]
@@ -211,7 +210,7 @@ def sphereOn(radius, at, size):
     length = .25 * size
     # The contact's stiffness goes with the radius, and the nodes must be able to follow it.
     soft = w.FrictMat(young=YOUNG / max(1, radius), poisson=.3, density=DENSITY, frictionAngle=.3)
-    ball = chain.ball((x + .07 * size, y + radius * length * (1 + 1e-6)), radius * length, soft)
+    ball = newBall((x + .07 * size, y + radius * length * (1 + 1e-6)), radius * length, soft)
     # A contact takes some ten steps, or more.
     dt = min(.5 * solver.criticalTimeStep(), .3 * radius * length / WAVE)
     ball.state.vel = (0, -1e-4 * min(1, radius) * length / dt, 0)

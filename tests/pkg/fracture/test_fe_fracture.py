@@ -4,9 +4,9 @@ import os
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
 from fe_impact import brittle, engines, heapSpheres, impact, O, requireBodiesAreEntries, steps
+from fe_scene import newBall
 from yadefrag.plots import pictures
 from yadefrag.plots.axes import fragmentColours
 from yade import wrapper as w
@@ -83,7 +83,7 @@ def test_spheresTouchNewFaces(finder):
     middle = np.array(widest.state.pos)[:2]
     travel = np.array(widest.shape.end - widest.shape.start)[:2]
     outward = np.array([travel[1], -travel[0]]) / np.linalg.norm(travel)
-    ball = chain.ball(middle + outward * .9e-4, 1e-4, O.materials['b'])
+    ball = newBall(middle + outward * .9e-4, 1e-4, O.materials['b'])
     ball.state.blockedDOFs = 'xyzXYZ'
     O.bodies.append(ball)
     O.step()

@@ -1,4 +1,5 @@
-"""An elastic disc that hits a block, the engines around an FESolver, momenta; warnings of a block of code."""
+"""An elastic disc that hits a block, the engines around an FESolver, momenta; rigid chains made by hand; warnings of a block
+of code."""
 import builtins
 import contextlib
 import warnings
@@ -8,6 +9,7 @@ import numpy as np
 import yadefrag
 from yade import utils
 from yade import wrapper as w
+from yade.minieigenHP import Vector3
 
 O = builtins.O
 
@@ -46,7 +48,7 @@ def ready(solver, factor, **settings):
 
 
 def solverOfScene():
-    return next(engine for engine in O.engines if isinstance(engine, w.FESolver))
+    return next((engine for engine in O.engines if isinstance(engine, w.FESolver)), None)
 
 
 def reloaded(path):
@@ -87,12 +89,53 @@ def blow(held=False, **settings):
     return solver
 
 
+def newBall(place, radius, material):
+    """A sphere's body at `place` (2,), free to move, which is not in the scene; `material` is an object, but its mass that of
+    the last one in the scene."""
+    made = utils.sphere((float(place[0]), float(place[1]), 0), radius)
+    made.material = material
+    return made
+
+
 def throwBall(place, radius, velocity=(0, 0), material='m', spin=0, blocked='zXY'):
     """A sphere's body, which is in the scene and moves in the plane, unless other directions are blocked."""
     body = utils.sphere((float(place[0]), float(place[1]), 0), radius, material=material)
     body.state.vel, body.state.angVel, body.state.blockedDOFs = (*velocity, 0), (0, 0, spin), blocked
     O.bodies.append(body)
     return body
+
+
+def chain(points, material, closed=False, **attributes):
+    """Bodies, which obey no forces, of the straight segments along `points` (n, 2): a rigid boundary, material on the left."""
+    places = [Vector3(*map(float, point), 0) for point in points]
+    ends = list(zip(places, places[1:] + places[:1]))[:None if closed else -1]
+    travel = [(b - a).normalized() for a, b in ends]
+    bodies = []
+    for i, (a, b) in enumerate(ends):
+        shape = w.SurfaceSegment(start=a, end=b, **attributes)
+        if closed or i > 0:
+            shape.before = travel[i - 1]
+        if closed or i + 1 < len(ends):
+            shape.after = travel[(i + 1) % len(ends)]
+        bodies.append(rigid(shape, material))
+    return bodies
+
+
+def rigid(shape, material):
+    """A body with `shape` and a material (an object) that does not obey forces."""
+    made = w.Body()
+    made.shape, made.material, made.state.blockedDOFs = shape, material, 'xyzXYZ'
+    return made
+
+
+def sphereEngines(collider=None, newton=True):
+    """The usual loop for spheres and surface segments without a solver; returns the collider."""
+    collider = collider or w.InsertionSortCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb(), w.Bo1_Wall_Aabb()])
+    loop = w.InteractionLoop(
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom(), w.Ig2_Wall_Sphere_ScGeom()],
+        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+    O.engines = [w.ForceResetter(), collider, loop, *([w.NewtonIntegrator(damping=0)] if newton else [])]
+    return collider
 
 
 def momentum(solver, bodies=None):
