@@ -4,6 +4,7 @@ reads."""
 
 from __future__ import annotations
 
+import concurrent.futures
 import contextlib
 import ctypes
 import io
@@ -270,37 +271,30 @@ def readByMeshio(name: str) -> Elements:
 
 def _inTime(function, seconds):
     """What `function()` returns or raises; TimeoutError if it takes longer, and then it is ended."""
-    result: list = []
+    future: concurrent.futures.Future = concurrent.futures.Future()
 
     def work():
         try:
-            result.append((function(), None))
+            future.set_result(function())
         except BaseException as error:
-            result.append((None, error))
+            future.set_exception(error)
 
-    thread = threading.Thread(target=work, daemon=True)
+    thread = threading.Thread(target=work, daemon=True)  # an executor would wait for it at the end of Python
     thread.start()
     try:
-        thread.join(seconds)
+        return future.result(seconds)
+    except TimeoutError:
+        raise TimeoutError('reading did not end within %.0f s, the file may be incomplete' % seconds) from None
     finally:
-        if thread.is_alive():
+        if not future.done():
             ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident or 0), ctypes.py_object(SystemExit))
-    if not result:
-        raise TimeoutError('reading did not end within %.0f s, the file may be incomplete' % seconds)
-    found, error = result[0]
-    if error is not None:
-        raise error
-    return found
 
 
 def _told(text):
     """What meshio printed, without colours and marks; one line for each message."""
     plain = re.sub(r'\x1b\[[\d;]*m', '', text.getvalue())
-    found = []
-    for part in re.split(r'^(?:Warning|Info|Error):', plain, flags=re.MULTILINE):
-        if part.strip():
-            found.append(' '.join(part.split()).rstrip('.'))
-    return found
+    parts = re.split(r'^(?:Warning|Info|Error):', plain, flags=re.MULTILINE)
+    return [' '.join(part.split()).rstrip('.') for part in parts if part.strip()]
 
 
 def _cause(text):
