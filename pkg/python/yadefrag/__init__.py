@@ -26,9 +26,8 @@ from yadefrag import _yadefrag  # noqa: E402
 
 if TYPE_CHECKING:  # what publish() adds
     from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveIntegrator, CurveLoop, FEMat, FESolver,
-                              FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider,
-                              Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider, LinearCodeCollider, PlasticFEMat,
-                              SurfaceSegment)
+                              FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider, Ig2_Sphere_SurfaceSegment_ScGeom,
+                              LebesgueCollider, LinearCodeCollider, PlasticFEMat, SurfaceSegment)
     __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'CurveIntegrator', 'CurveLoop', 'FEMat', 'FESolver',
                'FrictionalFEMat', 'Gl1_SurfaceSegment', 'HierarchyCollider', 'Ig2_Sphere_SurfaceSegment_ScGeom',
                'LebesgueCollider', 'LinearCodeCollider', 'PlasticFEMat', 'SurfaceSegment']
@@ -81,8 +80,7 @@ for _name in __all__:
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh', 'outlineReport', 'snapOutlines',
             'voronoi', 'grainJoints', 'Mesh', 'polygonMesh', 'rectangleMesh', 'plotMesh', 'animate', 'exportVTK',
             'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture', 'plotFracture', 'crackTable',
-            'engines', 'FERecorder', 'tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable', 'inCurveOrder',
-            'about']
+            'engines', 'FERecorder', 'tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
 for _name in __all__:
     if type(globals()[_name]) is type(inWords):
         _function = inWords(globals()[_name])

@@ -255,8 +255,7 @@ def testFlightsThatMeetAreFoundInTime():
         O.dt = 2e-3
         c, s = math.cos(turn), math.sin(turn)
         rows = np.arange(-20, 0) * 3. * LARGE
-        places = np.concatenate([[(c * x, s * x, .3 * x) for x in rows],
-                                 [(-s * x, c * x, -.3 * x) for x in rows]])
+        places = np.concatenate([[(c * x, s * x, .3 * x) for x in rows], [(-s * x, c * x, -.3 * x) for x in rows]])
         speeds = np.concatenate([np.tile((c, s, .3), (20, 1)), np.tile((-s, c, -.3), (20, 1))])
         addSpheres(places, np.full(40, LARGE), 2 * speeds)
         setEngines(makeCollider('LebesgueCollider'))

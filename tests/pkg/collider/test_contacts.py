@@ -106,10 +106,9 @@ def testScaleAndOffset(collider, scale, offset):
 
 
 @pytest.mark.parametrize('attributes', [
-    dict(verletDist=0), dict(verletDist=.01), dict(verletDist=-2),
-    dict(verletDist=.05, targetInterv=0),
-    dict(targetInterv=5), dict(minSweepDistFactor=.001), dict(minSweepDistFactor=1),
-    dict(sortAxis=1), dict(sortThenCollide=True), dict(updatingDispFactor=1.5)], ids=str)
+    dict(verletDist=0), dict(verletDist=.01), dict(verletDist=-2), dict(verletDist=.05, targetInterv=0),
+    dict(targetInterv=5), dict(minSweepDistFactor=.001), dict(minSweepDistFactor=1), dict(sortAxis=1),
+    dict(sortThenCollide=True), dict(updatingDispFactor=1.5)], ids=str)
 def testAttributes(collider, attributes):
     moving(collider, 11, **attributes)
     assert stepAndCheck(steps=40) > 50

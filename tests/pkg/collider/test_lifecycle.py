@@ -220,9 +220,8 @@ def testAfterReload(collider):
 
 def snapshot():
     """All that a failed search must leave alone."""
-    bounds = [None if b.bound is None else
-              (tuple(b.bound.min), tuple(b.bound.max), tuple(b.bound.refPos), b.bound.sweepLength,
-               b.bound.lastUpdateIter) for b in O.bodies]
+    bounds = [None if b.bound is None else (tuple(b.bound.min), tuple(b.bound.max), tuple(b.bound.refPos),
+                                            b.bound.sweepLength, b.bound.lastUpdateIter) for b in O.bodies]
     states = [(tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.ori)) for b in O.bodies]
     collider = O.engines[1]
     # as text, since a NaN is not equal to itself

@@ -54,12 +54,10 @@ kNeeds = {
 kNoCollider = {'checkAlpha.py', 'checkShapeVolume.py', 'checkTestDummy.py', 'checkPotentialBlocks.py',
                'checkBlockGen.py', 'checkLiquidMigration.py'}
 # The collider is never among O.engines in a run: called by hand, or inside an integrator.
-kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py',
-          'checkGravityRungeKuttaCashKarp54.py'}
+kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py', 'checkGravityRungeKuttaCashKarp54.py'}
 kFoundChecks = {'checkTestTriax.py'}    # here the collider comes out of C++, not by name
 
-kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines',
-         'utilsModule']
+kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines', 'utilsModule']
 kUnitWithCollider = {'wrapper', 'core', 'cohesive-chain', 'engines', 'utilsModule'}
 
 kResults = {}
@@ -160,8 +158,7 @@ kShortExamples = [
     'test/facet-sphere-ViscElBasic-peri.py', 'PeriodicBoundaries/periodic-simple.py']
 kLongExamples = [
     'PeriodicBoundaries/cellFlipping.py', 'PeriodicBoundaries/periodic-simple-shear.py',
-    'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py',
-    'test/collider-stride-triax.py',
+    'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py', 'test/collider-stride-triax.py',
     'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
 
 
@@ -187,8 +184,7 @@ def compareMoments(expected, found, radius):
     total = 0
     assert [m['step'] for m in expected] == [m['step'] for m in found]
     for a, b in zip(expected, found):
-        missing, extra = (differences(x['contacts'], y['contacts'], 1e-5 * radius)
-                          for x, y in ((a, b), (b, a)))
+        missing, extra = (differences(x['contacts'], y['contacts'], 1e-5 * radius) for x, y in ((a, b), (b, a)))
         assert not missing and not extra, f'at step {a["step"]}'
         total += len(a['contacts'])
         if apart(a['positions'], b['positions']) > 1e-6 * radius:

@@ -137,8 +137,7 @@ class Swap:
     def _wrapOmega(self):
         for name in ('run', 'step'):
             self._wrap(w.Omega, name, before=self._beforeRun)
-        for name in ('load', 'reload', 'loadTmp', 'stringToScene', 'reset', 'switchScene',
-                     'switchToScene'):
+        for name in ('load', 'reload', 'loadTmp', 'stringToScene', 'reset', 'switchScene', 'switchToScene'):
             self._wrap(w.Omega, name, after=self.swapScene)
         self._wrap(w.FileGenerator, 'load', after=self.swapScene)
 
@@ -275,8 +274,7 @@ def makeRepeatable():
 
 def contacts():
     """[id1, id2, overlap] of the real interactions; overlap is None where the geometry has none."""
-    return sorted([i.id1, i.id2, getattr(i.geom, 'penetrationDepth', None)]
-                  for i in O.interactions)
+    return sorted([i.id1, i.id2, getattr(i.geom, 'penetrationDepth', None)] for i in O.interactions)
 
 
 def positions():

@@ -208,8 +208,7 @@ def test_finerOnesTakeMoreSweeps():
 def ring(centre, count, component, mat, halo, selfContact=False):
     angles = np.arange(count) * 2 * math.pi / count
     points = np.stack([centre[0] + np.cos(angles), centre[1] + np.sin(angles)], axis=1)
-    return chain(points, mat, closed=True, component=component, halo=halo,
-                          selfContact=selfContact)
+    return chain(points, mat, closed=True, component=component, halo=halo, selfContact=selfContact)
 
 
 def scene(collider, selfContact=False, spheres=()):
@@ -281,8 +280,7 @@ def test_spheresAmongSegments(collider):
     O.dt = 1e-6
     O.step()
     assert set(finder.entryPairs()) == {p for p in overlapping() if not isSelf(p)}
-    kinds = {tuple(sorted(type(O.bodies[k].shape).__name__ for k in (i.id1, i.id2)))
-             for i in O.interactions.all()}
+    kinds = {tuple(sorted(type(O.bodies[k].shape).__name__ for k in (i.id1, i.id2))) for i in O.interactions.all()}
     assert kinds == {('Sphere', 'SurfaceSegment')}
     assert len(list(O.interactions)) >= 2
 
@@ -318,8 +316,7 @@ def test_boundsHoldUntilTheNextSearch(collider):
     fe = w.FESolver()
     fe.addPolygon(yadefrag.rectangle((0, .1), (1, .6)), size=.1, material='m',
                   velocity=lambda x, y: (-.7 * y, .7 * x - 1))
-    fe.addPolygon(yadefrag.rectangle((-.5, -.5), (1.5, 0)), size=.1, material='m',
-                  fixed=lambda x, y: y < -.499)
+    fe.addPolygon(yadefrag.rectangle((-.5, -.5), (1.5, 0)), size=.1, material='m', fixed=lambda x, y: y < -.499)
     O.bodies.append([newBall((x, .9), .1, O.materials[0]) for x in (-.2, .3, .8)])
     O.engines = yadefrag.engines(fe, spheres=True, gravity=(0, -10), collider=getattr(w, collider.name))
     O.dt = .5 * fe.criticalTimeStep()

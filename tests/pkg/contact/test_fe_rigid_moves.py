@@ -149,8 +149,7 @@ def shelf(kind):
     elif kind == 'box':
         number = O.bodies.append(utils.box((0, -.1, 0), (1, .1, .1), fixed=True))
     else:
-        number, _ = O.bodies.appendClumped([utils.box((0, -.1, 0), (1, .1, .1)),
-                                            utils.box((0, -.3, .4), (1, .1, .3))])
+        number, _ = O.bodies.appendClumped([utils.box((0, -.1, 0), (1, .1, .1)), utils.box((0, -.3, .4), (1, .1, .3))])
     body = O.bodies[number]
     body.state.blockedDOFs = 'xyzXYZ'
     return body

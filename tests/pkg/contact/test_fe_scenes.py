@@ -17,8 +17,7 @@ def course(seed, folder=None):
     moments, too."""
     O.reset()
     random, moments = Random(seed), Random(seed + 1)
-    solver = impact(random.choice(['LebesgueCollider', 'InsertionSortCollider']),
-                    smooth=random.choice([False, True]))
+    solver = impact(random.choice(['LebesgueCollider', 'InsertionSortCollider']), smooth=random.choice([False, True]))
     throwBall((.15, .151), .05, (0, -1)).mask = random.choice([1, 2])
     run(solver, O.engines[1], spheres=True, factor=.5)
     for _ in range(15):
@@ -56,8 +55,7 @@ def test_damagedFileIsRefused(ending, damage, folder):
     with open(path, 'wb') as file:
         file.write(data[:at])
         if damage == 'edited':
-            digit = next(i for i in range(at, len(data)) if ending != '.xml' or
-                         chr(data[i]).isdigit())
+            digit = next(i for i in range(at, len(data)) if ending != '.xml' or chr(data[i]).isdigit())
             other = data[digit] ^ 1
             file.write(data[at:digit] + bytes([other]) + data[digit + 1:])
     O.reset()
@@ -176,8 +174,7 @@ def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
 def test_bodiesJoinARun():
     solver = impact('LebesgueCollider')
     steps(100)
-    number = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m',
-                               velocity=(-3, 0))
+    number = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m', velocity=(-3, 0))
     assert number == 2
     steps(300)
     assert solver.fragments()[2]['velocity'][0] > -2.9

@@ -50,8 +50,7 @@ def test_allIsSavedAndLoaded(ending, folder):
                              shearEnergyFactor=3, weibullModulus=20, strengthScatter=.1, seed=7, planeStress=True,
                              young=3e11, poisson=.2, density=3900, frictionAngle=.3, label='c')
     O.materials.append(brittle)
-    O.bodies.append(smoothChain(hexagon(), brittle, halo=.01, entry=3, component=1,
-                                 selfContact=False))
+    O.bodies.append(smoothChain(hexagon(), brittle, halo=.01, entry=3, component=1, selfContact=False))
     sphereEngines()
     wanted = [O.bodies[2].shape.dict(), O.materials['c'].dict()]
     reloaded('%s/scene%s' % (folder, ending))
@@ -135,8 +134,7 @@ def heldBall(bodies, mat):
     ball = newBall((50, 50), RADIUS, mat)
     ball.state.blockedDOFs = 'xyzXYZ'
     O.bodies.append(bodies + [ball])
-    sphereEngines(w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()],
-                                     verletDist=0), newton=False)
+    sphereEngines(w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], verletDist=0), newton=False)
     return ball
 
 
@@ -165,8 +163,7 @@ def test_arcsPushByTheirDistance():
         centre = .97 * ray
         force = forceAt(ball, centre)
         wanted = max(RADIUS - offLine([centre], curve), 0)
-        assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted,
-                                                      abs=1e-5 * stiffness())
+        assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted, abs=1e-5 * stiffness())
         if wanted > 0:
             assert force @ ray > 0
 
@@ -267,6 +264,5 @@ def test_classesAreThere():
     for name in ('FEMat', 'BrittleFEMat', 'SurfaceSegment', 'Bo1_SurfaceSegment_Aabb',
                  'Ig2_Sphere_SurfaceSegment_ScGeom'):
         assert name in yadefrag.__all__
-    assert w.BrittleFEMat().dispHierarchy() == ['BrittleFEMat', 'FEMat', 'FrictMat', 'ElastMat',
-                                                'Material']
+    assert w.BrittleFEMat().dispHierarchy() == ['BrittleFEMat', 'FEMat', 'FrictMat', 'ElastMat', 'Material']
     assert w.SurfaceSegment().dispHierarchy() == ['SurfaceSegment', 'Shape']

@@ -17,8 +17,7 @@ def test_sphereOnABodyKeepsMomentum(smooth, friction, varying):
     """Also where O.dt changes in every step."""
     solver = fe()
     O.materials['m'].frictionAngle = friction
-    solver.addPolygon(yadefrag.rectangle((-.1, -.1), (.1, 0)), size=.02, material='m',
-                      smooth=smooth)
+    solver.addPolygon(yadefrag.rectangle((-.1, -.1), (.1, 0)), size=.02, material='m', smooth=smooth)
     ball = throwBall((.033, .052), .05, (.5, -1), spin=20)
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.3)
     linear, angular = momentum(solver)
@@ -54,8 +53,7 @@ def ledgerHolds(solver):
 def test_forceOnAPieceGoesToItsNodes():
     """Force and torque on an entry's body: sum and moment of the nodes' forces are the same."""
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m',
-                      smooth=[True, False, False, True])
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m', smooth=[True, False, False, True])
     run(solver, newton=False)
     for b in O.bodies:
         O.forces.setPermF(b.id, (3, -2, 0))

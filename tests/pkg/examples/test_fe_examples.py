@@ -302,8 +302,7 @@ def test_scriptsAreShort(name):
     assert len(script.read_text().splitlines()) < 60 and script.with_suffix('.png').exists()
 
 
-BLOCKS = {f'{page.name}-{number}': block
-          for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
+BLOCKS = {f'{page.name}-{number}': block for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
           for number, block in enumerate(re.findall(r'^```python\n(.*?)^```', page.read_text(), re.S | re.M))}
 CASES = pathlib.Path(__file__).resolve().with_name('cases.py')
 # What a recipe prints beside a closed form; 15 %: coarse meshes, the disc has 10 % too much.

@@ -212,8 +212,7 @@ def pictures():
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
         command = [part for part in yadeCommand() if part != '-n']
         done = subprocess.run(
-            ['xvfb-run', '-a', '-s', '-screen 0 600x500x24', *command,
-             os.path.join(kHere, 'gl_scene.py'), folder],
+            ['xvfb-run', '-a', '-s', '-screen 0 600x500x24', *command, os.path.join(kHere, 'gl_scene.py'), folder],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
         assert done.returncode == 0, done.stdout[-2000:]
         found = {name[:-4]: np.asarray(Image.open(os.path.join(folder, name)).convert('RGB'))[:400, :500]
@@ -239,8 +238,7 @@ def test_bodiesAreFilledBesideSpheres(pictures):
     over which the black boundary lies. The sphere is a shaded green."""
     (one, large), (other, small) = sorted(counts(pictures['component']).items(), key=lambda item: -item[1])[:2]
     assert large > 10000 and small / large == pytest.approx(np.pi / 4, rel=.03)
-    rows = {colour: np.argwhere((pictures['component'] == colour).all(axis=2)).mean(axis=0)
-            for colour in (one, other)}
+    rows = {colour: np.argwhere((pictures['component'] == colour).all(axis=2)).mean(axis=0) for colour in (one, other)}
     assert rows[one][1] < 200 < 300 < rows[other][1]  # the square is on the left, the disc on the right
     assert rows[one][0] == pytest.approx(rows[other][0], abs=3)
     green = share(pictures['component'], lambda r, g, b: g > 100 and r < .6 * g and b < .6 * g)

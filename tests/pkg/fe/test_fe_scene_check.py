@@ -186,10 +186,9 @@ def blow(order):
     sphere.state.vel = (2, 0, 0)
     O.bodies.append(sphere)
     made = dict(
-        R=w.ForceResetter(), C=finder('LebesgueCollider'), F=solver,
-        N=w.NewtonIntegrator(damping=0), I=w.InteractionLoop(
-            [w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-            [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
+        R=w.ForceResetter(), C=finder('LebesgueCollider'), F=solver, N=w.NewtonIntegrator(damping=0),
+        I=w.InteractionLoop([w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                            [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
     O.engines = [made[letter] for letter in order]
     O.dt = .05 * solver.criticalTimeStep()
     return solver

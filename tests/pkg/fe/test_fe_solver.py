@@ -33,8 +33,7 @@ def test_arraysAndLedger():
     assert (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] > 0).all()
     assert [len(loop) for loop in solver.surfaces][0] > 20 and len(solver.surfaces) == 2
     values = solver.energy
-    assert set(values) == {'kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping',
-                           'outside', 'total'}
+    assert set(values) == {'kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'outside', 'total'}
     assert abs(values['total'] / energy - 1) < 1e-4
     linear, angular = momentum(solver)
     scale = np.linalg.norm(start[0])

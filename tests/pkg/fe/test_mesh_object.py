@@ -152,8 +152,7 @@ def added(**wanted):
     """A solver with one body."""
     O.bodies.clear()
     solver = w.FESolver()
-    solver.addPolygon(**{**dict(outline=kSquare, size=.02, material=brittle(fractureEnergy=0)),
-                         **wanted})
+    solver.addPolygon(**{**dict(outline=kSquare, size=.02, material=brittle(fractureEnergy=0)), **wanted})
     return solver
 
 

@@ -62,8 +62,7 @@ def test_momentumOfAFreeBlock():
     steps(250)
     gone = solver.dropped
     assert gone['count'] > 3
-    assert np.allclose(momentum(solver)[0] + gone['momentum'], start, rtol=0,
-                       atol=1e-11 * np.linalg.norm(start))
+    assert np.allclose(momentum(solver)[0] + gone['momentum'], start, rtol=0, atol=1e-11 * np.linalg.norm(start))
 
 
 def test_energyIsTracked():

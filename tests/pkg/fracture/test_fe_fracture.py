@@ -47,8 +47,7 @@ def test_facesOfCracksAreBodies(smooth):
     assert solver.energy['total'] == pytest.approx(total, rel=.01)
     of = solver.fragmentOf
     assert np.array_equal(np.bincount(of), [p['triangles'] for p in parts])
-    assert all(len(set(of[(solver.triangles == n).any(1)])) == 1 
-               for n in range(0, len(solver.masses), 7))
+    assert all(len(set(of[(solver.triangles == n).any(1)])) == 1 for n in range(0, len(solver.masses), 7))
 
 
 def test_newFacesTouchEachOther():
@@ -168,8 +167,7 @@ def test_heldPartsCountAsOne():
     """A bar in tension: two parts as soon as nodes split, but one until the crack has lost its cohesion."""
     solver = w.FESolver()
     nodes, triangles = yadefrag.rectangleMesh((-.01, 0), (.01, .01), 2, 1)
-    solver.addTriangles(nodes, triangles, material=brittle(fractureEnergy=500),
-                        velocity=lambda x, y: (2 * x / .01, 0),
+    solver.addTriangles(nodes, triangles, material=brittle(fractureEnergy=500), velocity=lambda x, y: (2 * x / .01, 0),
                         fixed=lambda x, y: 'x' if abs(x) > .009 else False)
     O.engines = [solver]
     O.dt = .5 * solver.criticalTimeStep()

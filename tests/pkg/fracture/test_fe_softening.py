@@ -21,14 +21,12 @@ def inBand(x):
 def weakBar(**given):
     """A bar that is drawn at a constant rate of strain; its stress is even."""
     solver = w.FESolver()
-    material = brittle(young=1e9, poisson=0, density=1000, planeStress=True, fractureEnergy=1000,
-                       tensileStrength=50e6)
+    material = brittle(young=1e9, poisson=0, density=1000, planeStress=True, fractureEnergy=1000, tensileStrength=50e6)
     wanted = dict(strength=lambda x, y: kWeak if inBand(x) else 50e6,
                   fractureEnergy=lambda x, y: kWeakEnergy if inBand(x) else 1000)
     solver.addPolygon(yadefrag.rectangle((0, 0), (kBarLength, kBarHeight)), size=.002, material=material,
-                      velocity=lambda x, y: (kRate * (x - kBarLength / 2), 0),
-                      fixed=lambda x, y: 'x' if x < 1e-9 or x > kBarLength - 1e-9 else False,
-                      **{**wanted, **given})
+                      velocity=lambda x, y: (kRate * (x - kBarLength / 2), 0), fixed=lambda x, y: 'x' if x < 1e-9
+                      or x > kBarLength - 1e-9 else False, **{**wanted, **given})
     engines(solver, factor=.4)
     return solver
 

@@ -267,12 +267,10 @@ def test_meshesDoNotDependOnTheUnit(irregular):
     plate = yadefrag.rectangle((0, 0), (.04, .02))
     hole = yadefrag.circle((.02, .01), .004, 20)
     for outline, holes, size, joints in ((plate, [], .001, ()), (plate, [hole], .0007, ()),
-                                         (yadefrag.circle((.3, .2), .05), [], .003, ()),
-                                         (blob, [], .007, ()),
+                                         (yadefrag.circle((.3, .2), .05), [], .003, ()), (blob, [], .007, ()),
                                          (plate, [], .001, [((.003, .004), (.031, .0171))])):
         first = meshOf(outline, holes, size, 1, 0, irregular, joints)
         for scale, shift in ((1000, 0), (1e-3, 0), (100, 0), (1 / .0254, 0), (2.**-40, 0), (1000, 250)):
             again = meshOf(outline, holes, size, scale, shift, irregular, joints)
             assert np.array_equal(again.triangles, first.triangles), (scale, shift)
-            assert again.nodes == pytest.approx(scale * first.nodes + shift, rel=1e-9,
-                                                   abs=1e-9 * scale * size)
+            assert again.nodes == pytest.approx(scale * first.nodes + shift, rel=1e-9, abs=1e-9 * scale * size)

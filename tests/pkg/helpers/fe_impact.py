@@ -92,8 +92,7 @@ def requireBodiesAreEntries(solver):
     pieces = sorted((b.shape for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)),
                     key=lambda shape: shape.entry)
     entries = [shape.entry for shape in pieces]
-    assert entries == (list(range(len(pieces))) if solver.dropped['count'] == 0
-                       else sorted(set(entries)))
+    assert entries == (list(range(len(pieces))) if solver.dropped['count'] == 0 else sorted(set(entries)))
     starts, ends = {}, {}
     for shape in pieces:
         starts[tuple(shape.start)] = starts.get(tuple(shape.start), 0) + 1

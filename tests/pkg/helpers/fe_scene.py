@@ -71,8 +71,7 @@ def steps(count):
 def impact(name=None, smooth=False, **settings):
     """A disc that hits a block, ready to run."""
     solver = fe(**settings)
-    solver.addPolygon(yadefrag.circle((0, 0), .1, 24), size=.02, material='m', velocity=(2, .3),
-                      smooth=smooth, spin=3)
+    solver.addPolygon(yadefrag.circle((0, 0), .1, 24), size=.02, material='m', velocity=(2, .3), smooth=smooth, spin=3)
     solver.addPolygon(yadefrag.rectangle((.105, -.1), (.2, .1)), size=.02, material='m')
     run(solver, name and finder(name))
     return solver

@@ -144,5 +144,4 @@ def figures(name, folder, *options):
     assert done.returncode == 0, done.stdout[-1500:] + done.stderr[-1500:]
     assert os.path.getsize(os.path.join(folder, name + '.png')) > 10000
     lines = [line.split(': ', 1) for line in done.stdout.splitlines() if ': ' in line]
-    return {what: [float(n) for n in re.findall(r'(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?', rest)]
-            for what, rest in lines}
+    return {what: [float(n) for n in re.findall(r'(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?', rest)] for what, rest in lines}

@@ -53,22 +53,18 @@ def seen(_, ways):
 
 def whole(fe):
     """Numbers that depend on the choices."""
-    return [fe.passes, fe.contactTolerance, fe.halo, fe.linearViscosity,
-            fe.quadraticViscosity, O.materials[0].planeStress, O.numThreads,
-            len(O.engines), len(fe.triangles)]
+    return [fe.passes, fe.contactTolerance, fe.halo, fe.linearViscosity, fe.quadraticViscosity,
+            O.materials[0].planeStress, O.numThreads, len(O.engines), len(fe.triangles)]
 
 
 def spheres(choices):
     """A sphere bounces between two others; a stiffer one blows up with a step this long."""
     O.materials.append(w.FrictMat(young=choices.get('young', 1e6), density=1000, poisson=.3))
-    O.bodies.append([utils.sphere((0, 0, 0), .5, fixed=True), utils.sphere((1.95, 0, 0), .5,
-                                                                           fixed=True)])
+    O.bodies.append([utils.sphere((0, 0, 0), .5, fixed=True), utils.sphere((1.95, 0, 0), .5, fixed=True)])
     O.bodies.append(utils.sphere((.97, 0, 0), .5))
     O.engines = [w.ForceResetter(), choices.collider([w.Bo1_Sphere_Aabb()]),
-                 w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()],
-                                   [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                                   [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-                 w.NewtonIntegrator(damping=0)]
+                 w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                                   [w.Law2_ScGeom_FrictPhys_CundallStrack()]), w.NewtonIntegrator(damping=0)]
     O.dt = 1e-3
     return O.bodies[2]
 
@@ -103,8 +99,7 @@ def brittle(choices):
     fe = choices.solver()
     material = choices.material(young=1e9, poisson=.2, density=1000, frictionAngle=0,
                                 tensileStrength=1e6, fractureEnergy=choices.get('energy', 1e6))
-    fe.addTriangles(*rectangleMesh((0, 0), (1, 1), 1, 1), material=material,
-                    smooth=choices.smooth())
+    fe.addTriangles(*rectangleMesh((0, 0), (1, 1), 1, 1), material=material, smooth=choices.smooth())
     choices.engines(fe)
     return material
 

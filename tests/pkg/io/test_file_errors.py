@@ -21,8 +21,7 @@ kNowhere = ['/nowhere/run', '/proc/run', '{folder}/file/run']
 
 def table():
     return yadefrag.TradeoffTable([
-        TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', k, k, 1 / k, 0, 9, [k], [k])
-        for k in (1, 2, 3)])
+        TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', k, k, 1 / k, 0, 9, [k], [k]) for k in (1, 2, 3)])
 
 
 def fill(name, count):

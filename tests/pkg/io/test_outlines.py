@@ -158,8 +158,7 @@ def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
 
 @pytest.mark.parametrize('name, module, package', [
     ('a.svg', 'svgelements', 'python3-svgelements'), ('a.dxf', 'ezdxf', 'python3-ezdxf'),
-    ('a.wkt', 'shapely.wkt', 'python3-shapely'),
-    ('a.json', 'shapely.geometry', 'python3-shapely'),
+    ('a.wkt', 'shapely.wkt', 'python3-shapely'), ('a.json', 'shapely.geometry', 'python3-shapely'),
     ('a.png', 'skimage.measure', 'python3-skimage'), ('a.png', 'PIL.Image', 'python3-pil')])
 def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
     monkeypatch.setitem(sys.modules, module, None)

@@ -52,9 +52,8 @@ def scene(moment):
         O.bodies.append(body)
     collider = w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()])
     O.engines = [w.ForceResetter(), collider, w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        fe, w.NewtonIntegrator()]
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+        [w.Law2_ScGeom_FrictPhys_CundallStrack()]), fe, w.NewtonIntegrator()]
     O.dt = .5 * fe.criticalTimeStep()
     if moment != 'before':
         for _ in range(3):
@@ -68,8 +67,7 @@ def state(fe):
     for array in (fe.nodes, fe.velocities, fe.triangles, fe.loads, fe._reference, fe.components, fe.masses,
                   fe.fragmentOf, fe.contactForces, *fe.surfaces):
         digest.update(array.tobytes())
-    bodies = [b and (tuple(b.state.pos), tuple(b.state.vel), repr(b.shape.dict()), b.groupMask)
-              for b in O.bodies]
+    bodies = [b and (tuple(b.state.pos), tuple(b.state.vel), repr(b.shape.dict()), b.groupMask) for b in O.bodies]
     engines = [(type(e).__name__, repr({n: v for n, v in e.dict().items() if ' at 0x' not in repr(v)}))
                for e in O.engines if not isinstance(e, w.PyRunner)]
     materials = [repr(m.dict()) for m in O.materials]
@@ -154,8 +152,7 @@ def ownClasses():
 
 
 def settable(cls):
-    return [name for name, value in inspect.getmembers(cls)
-            if isinstance(value, property) and value.fset is not None]
+    return [name for name, value in inspect.getmembers(cls) if isinstance(value, property) and value.fset is not None]
 
 
 def presets(cls):

@@ -243,10 +243,9 @@ class Wordy:
 
 
 def numbers():
-    return [0, 1, 2, 3, -1, 7, 2**31 - 1, 2**31, -2**31 - 1, 2**63, 10**30, -10**30, 10**400, -10**400,
-            0., -0., .5, 1., 2.5, -1., 1e-320, 1e-300, 1e-12, 1e12, 1e100, 1e160, 1e300, -1e300,
-            math.nan, math.inf, -math.inf, True, False, 1j, decimal.Decimal('0.5'),
-            fractions.Fraction(1, 2), fractions.Fraction(10**400, 3)]
+    return [0, 1, 2, 3, -1, 7, 2**31 - 1, 2**31, -2**31 - 1, 2**63, 10**30, -10**30, 10**400, -10**400, 0., -0., .5,
+            1., 2.5, -1., 1e-320, 1e-300, 1e-12, 1e12, 1e100, 1e160, 1e300, -1e300, math.nan, math.inf, -math.inf,
+            True, False, 1j, decimal.Decimal('0.5'), fractions.Fraction(1, 2), fractions.Fraction(10**400, 3)]
 
 
 def texts():
@@ -300,9 +299,8 @@ def callables():
 def objects(fe):
     scene = w.Omega()
     return [None, object(), Ellipsis, NotImplemented, type, Hostile(), Unprintable(), Wordy(), fe, fe.dict(),
-            w.FESolver(), w.FEMat(), w.FrictMat(), w.Body(), w.Sphere(), w.LebesgueCollider(),
-            w.Bo1_Sphere_Aabb(), w.NewtonIntegrator(), scene, scene.bodies, scene.materials,
-            datetime.datetime(2000, 1, 1), math, open]
+            w.FESolver(), w.FEMat(), w.FrictMat(), w.Body(), w.Sphere(), w.LebesgueCollider(), w.Bo1_Sphere_Aabb(),
+            w.NewtonIntegrator(), scene, scene.bodies, scene.materials, datetime.datetime(2000, 1, 1), math, open]
 
 
 def alike(random, fe, right):

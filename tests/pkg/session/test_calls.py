@@ -148,8 +148,7 @@ def test_curvesAreReturnedAsGiven(cls, attribute, values):
 # --- what is shown
 
 kLong = [np.zeros((1000, 1000)), list(range(10**5)), 'x' * 10**5, 10**5000, -10**5000, b'\xff' * 1000,
-         {i: i for i in range(1000)}, [[[[[[1] * 9] * 9] * 9] * 9]],
-         np.zeros(5, dtype=[('a', 'f8')]), '\ud800\n\x00']
+         {i: i for i in range(1000)}, [[[[[[1] * 9] * 9] * 9] * 9]], np.zeros(5, dtype=[('a', 'f8')]), '\ud800\n\x00']
 
 
 @pytest.mark.parametrize('value', kLong, ids=lambda v: type(v).__name__)
@@ -158,9 +157,8 @@ def test_valuesAreShownInShort(value):
     assert 0 < len(text) <= arguments.LONGEST and text.isprintable()
     for call in (lambda: yadefrag.runSteps(value), lambda: yadefrag.circle((0, 0), value),
                  lambda: yadefrag.rectangle(value, value), lambda: yadefrag.readPolygon(value),
-                 lambda: w.FESolver().addPolygon(kSquare, size=value, material='m'),
-                 lambda: w.FESolver(passes=value), lambda: w.FESolver(gravity=value),
-                 lambda: yadefrag.tradeoff(None, value, None, duration=value)):
+                 lambda: w.FESolver().addPolygon(kSquare, size=value, material='m'), lambda: w.FESolver(passes=value),
+                 lambda: w.FESolver(gravity=value), lambda: yadefrag.tradeoff(None, value, None, duration=value)):
         with pytest.raises((ValueError, TypeError)) as error:
             call()
         assert len(str(error.value)) <= 300

@@ -114,9 +114,8 @@ kSquare = yadefrag.rectangle((2, 2), (3, 3))
 
 def changes(solver):
     loads = solver.loads
-    return [lambda: solver.addPolygon(kSquare, size=.5, material=brittle()),
-            lambda: solver.removeBody(0), lambda: setattr(solver, 'loads', loads),
-            lambda: solver.prescribe([0], vx=1)]
+    return [lambda: solver.addPolygon(kSquare, size=.5, material=brittle()), lambda: solver.removeBody(0),
+            lambda: setattr(solver, 'loads', loads), lambda: solver.prescribe([0], vx=1)]
 
 
 def test_nothingChangesWhileItRuns(running):

@@ -146,8 +146,7 @@ def box(mass=100, damping=0., isFirst=False, speed=3, steps=100):
 
 def rested(most):
     solver = fe(gravity=(0, -1))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m',
-                      fixed=lambda x, y: y < 1e-9)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', fixed=lambda x, y: y < 1e-9)
     ready(solver, .5)
     assert solver.relax(most=most) >= 5
 

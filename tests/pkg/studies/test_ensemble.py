@@ -141,8 +141,7 @@ def test_tradeoffByAnExecutorAndAgain(folder):
     arguments = dict(duration=.05, repeats=2, resume=file)
     vary = {'timeStep': [.8, .4], 'fault': ['none']}
     with concurrent.futures.ThreadPoolExecutor(2) as executor:
-        first = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay,
-                                  executor=executor, **arguments)
+        first = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay, executor=executor, **arguments)
     assert [(row.result, len(row.walls)) for row in first.rows] == [('ok', 2)] * 2
     again = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay, **arguments)
     assert again.rows == first.rows  # to the last digit of the times: none was run
@@ -240,8 +239,7 @@ def table(values, **settings):
 def test_bandHoldsTheTruthWithItsProbability():
     """2000 ensembles of five normal runs: 90 % ± 2.5 % (3.7 standard deviations)."""
     draw = np.random.default_rng(3)
-    bands = [table((3 + 2 * draw.standard_normal(5)).tolist()).statistics(confidence=.9)[0]
-             for _ in range(2000)]
+    bands = [table((3 + 2 * draw.standard_normal(5)).tolist()).statistics(confidence=.9)[0] for _ in range(2000)]
     share = np.mean([band['low'] < 3 < band['high'] for band in bands])
     assert share == pytest.approx(.9, abs=.025)
 

@@ -72,8 +72,7 @@ def test_watched():
     table = trade(scenes.block, {'timeStep': [.1]}, scenes.seen, watch=scenes.look)
     row, = table.rows
     assert row.value == [row.steps, pytest.approx(scenes.SPEED * kDuration, rel=.5 / row.steps)]
-    table = trade(scenes.block, {'timeStep': [.1]}, scenes.seen, watch=scenes.look,
-                  every=kDuration / 4)
+    table = trade(scenes.block, {'timeStep': [.1]}, scenes.seen, watch=scenes.look, every=kDuration / 4)
     assert table.rows[0].value[0] == 4
 
 
@@ -183,8 +182,7 @@ def test_csvComesBack(folder):
     file = os.path.join(folder, 'a.csv')
     table = TradeoffTable(rows((1.5, .1), (2., 1 / 3)) + [
         TradeoffRow({'k': True, 'name': 'a, "b"\n|1', 'text': '1'}, 'refused', message='"no", so.'),
-        TradeoffRow({'k': '', 'name': 'NaN', 'text': 'true'}, 'ok', 1e-300, 2., 3., [1., 2.], 7,
-                    [1.], [2.])])
+        TradeoffRow({'k': '', 'name': 'NaN', 'text': 'true'}, 'ok', 1e-300, 2., 3., [1., 2.], 7, [1.], [2.])])
     table.csv(file)
     assert TradeoffTable.read(file).rows == table.rows
     Path(file).write_text('a,b\n1,2\n')
@@ -200,8 +198,7 @@ def test_markdown(folder):
     assert Path(folder, 'a.md').read_text() == text
     lines = text.splitlines()
     assert lines[0] == '# Title' and lines[8:] == [
-        '| 1 | row 1 |  | 2 | 1 | 1.00 | 10 | 0.5 |',
-        '| 2 | **k=1** |  | 1 | 0.5 | 0.50 | 10 | 0.5 |',
+        '| 1 | row 1 |  | 2 | 1 | 1.00 | 10 | 0.5 |', '| 2 | **k=1** |  | 1 | 0.5 | 0.50 | 10 | 0.5 |',
         '| 3 | **k=2** | 0.3 | 4 | 2 | 2.00 | 10 | 0.25 |',
         '| 4 | k=a\\|b |  |  |  |  |  | too long: no result within 3 s. |']
 

@@ -64,8 +64,7 @@ def runUnderValgrind(folder, *arguments):
     report = os.path.join(folder, 'memcheck.xml')
     # Other allocators, Python's own among them, would hide what is freed; Python's reads what memcheck takes for freed.
     done = subprocess.run(
-        [*kValgrind, f'--xml-file={report}', sys.executable, *yadeCommand(), '-j2',
-         str(kScenes), 'all', *arguments],
+        [*kValgrind, f'--xml-file={report}', sys.executable, *yadeCommand(), '-j2', str(kScenes), 'all', *arguments],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=900,
         env=dict(os.environ, LD_PRELOAD='', PYTHONMALLOC='malloc', PYTHONHASHSEED='0', OMP_WAIT_POLICY='passive'))
     return done, findings(report)

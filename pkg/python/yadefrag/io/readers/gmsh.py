@@ -17,13 +17,12 @@ import numpy
 from yadefrag.io.readers import Elements, cornersOf, needed
 
 _KINDS = {
-    1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5',
-    8: 'line3', 9: 'triangle6', 10: 'quad9', 11: 'tetra10', 12: 'hexahedron27', 13: 'wedge18',
-    14: 'pyramid14', 15: 'vertex1', 16: 'quad8', 17: 'hexahedron20', 18: 'wedge15', 19: 'pyramid13',
-    20: 'triangle9', 21: 'triangle10', 22: 'triangle12', 23: 'triangle15', 24: 'triangle15',
-    25: 'triangle21', 26: 'line4', 27: 'line5', 28: 'line6', 29: 'tetra20', 30: 'tetra35',
-    31: 'tetra56', 36: 'quad16', 37: 'quad25', 38: 'quad36', 39: 'quad12', 40: 'quad16', 41: 'quad20',
-    42: 'triangle28', 43: 'triangle36', 47: 'quad49', 48: 'quad64', 62: 'line7', 63: 'line8'}
+    1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5', 8: 'line3',
+    9: 'triangle6', 10: 'quad9', 11: 'tetra10', 12: 'hexahedron27', 13: 'wedge18', 14: 'pyramid14', 15: 'vertex1',
+    16: 'quad8', 17: 'hexahedron20', 18: 'wedge15', 19: 'pyramid13', 20: 'triangle9', 21: 'triangle10',
+    22: 'triangle12', 23: 'triangle15', 24: 'triangle15', 25: 'triangle21', 26: 'line4', 27: 'line5', 28: 'line6',
+    29: 'tetra20', 30: 'tetra35', 31: 'tetra56', 36: 'quad16', 37: 'quad25', 38: 'quad36', 39: 'quad12', 40: 'quad16',
+    41: 'quad20', 42: 'triangle28', 43: 'triangle36', 47: 'quad49', 48: 'quad64', 62: 'line7', 63: 'line8'}
 
 _HEAD = re.compile(rb'\s*(?:\$Comments.*?\$EndComments\s*)*'
                    rb'\$MeshFormat\s+([\d.]+)\s+(\d)\s+(\d+)[^\n]*\n(....)?', re.DOTALL)
