@@ -74,9 +74,7 @@ def test_maps(folder, name, ending, between):
 def test_wktThatIsNone(folder, text):
     with pytest.raises(ValueError, match='a.wkt (is not a readable WKT file|has no lines)'):
         readOutline(written(folder, 'a.wkt', text))
-
-
-def test_wktWithANumberOfItsSystem(folder):
+    # With the number of its system and heights.
     assert net(read(written(folder, 'a.wkt', 'SRID=4326;POLYGON Z ((0 0 1,4 0 1,4 4 1,0 0 1))'))[0]) == 8
 
 
@@ -102,17 +100,15 @@ def test_csvHeadings(folder, first):
         assert len(found) == wanted[1] and corners(found[-1][0]) == kSquare
 
 
-def test_csvDecimalComma(folder):
-    (outline, _), = readOutline(written(folder, 'a.csv', 'x;y\n0,5;0\n4,5; 0\n4,5; 4\n0,5;4\n'))
-    assert corners(outline) == [(x + .5, y) for x, y in kSquare]
-
-
 @pytest.mark.parametrize('encoding', ['utf-8', 'utf-8-sig', 'utf-16'])
 def test_csvOfSpreadsheets(folder, encoding):
+    """Commas are decimal ones."""
     file = pathlib.Path(folder, 'a.csv')
     file.write_text('"Länge";"y"\n"0";"0"\n"4";"0"\n"4";"4"\n"0,5";"4"\n', encoding=encoding)
     (outline, _), = readOutline(file)
     assert corners(outline) == [(0, 0), (4, 0), (4, 4), (.5, 4)]
+    (outline, _), = readOutline(written(folder, 'a.csv', 'x;y\n0,5;0\n4,5; 0\n4,5; 4\n0,5;4\n'))
+    assert corners(outline) == [(x + .5, y) for x, y in kSquare]
 
 
 def flag(x, y):
@@ -258,8 +254,6 @@ def test_specksAreOmittedIfRequested(folder):
     assert area(outline) == pytest.approx(60 * 40, rel=1e-3)
     with pytest.raises(ValueError, match='L.png, tolerance: simplify is 1 m, .*could vanish'):
         readOutline(file, 1)
-
-
-def test_silhouetteAtTheEdgeOfThePicture(folder):
+    # At the edge of the picture.
     (outline, _), = readOutline(silhouette(folder, lambda x, y: x < 60), .1)
     assert area(outline) == pytest.approx(60 * 100, rel=1e-3)

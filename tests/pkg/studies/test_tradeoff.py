@@ -152,9 +152,7 @@ def test_againstNumbersAndFiles(folder):
     assert short.message == 'measured are 1 numbers, the reference has 2.'
     tool._setErrors(TradeoffTable([row]), tool._reference([0., 0.]), [{}])
     assert row.error == pytest.approx(np.sqrt((9 + 25) / 2))
-
-
-def test_referenceWithoutAValue():
+    # A reference without a value.
     good, bad = TradeoffRow({}, 'ok', 1., 1., value=1.), TradeoffRow({'a': 1}, 'refused')
     tool._setErrors(TradeoffTable([good, bad]), {'a': 1}, [{}, {'a': 1}])
     assert good.error is None and good.message == 'the reference (a=1) has no value.'
