@@ -38,8 +38,7 @@ else:
 from yadefrag import io, plots, studies  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
 from yadefrag.fe.fields import crackTable  # noqa: E402
-from yadefrag.fe.geometry import circle, rectangle, ring  # noqa: E402
-from yadefrag.fe.grains import grainJoints, voronoi  # noqa: E402
+from yadefrag.fe.geometry import circle, grainJoints, rectangle, ring, voronoi  # noqa: E402
 from yadefrag.fe.mesh import Mesh, polygonMesh, rectangleMesh
 from yadefrag.fe.neighbours import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402

@@ -12,8 +12,7 @@ import yadefrag
 from outline_files import area, contour, isOneSentence, offLine, written
 from yadefrag import _yadefrag
 from yadefrag.fe import geometry
-from yadefrag.fe.geometry import simplified
-from yadefrag.fe.grains import grainJoints, voronoi
+from yadefrag.fe.geometry import grainJoints, simplified, voronoi
 from yadefrag.io import outlines
 
 kAngle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
