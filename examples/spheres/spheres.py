@@ -21,17 +21,18 @@ import time
 
 import matplotlib
 import numpy as np
+from scipy.spatial import cKDTree
 from tqdm import tqdm
 
 matplotlib.use('Agg')
-sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-import drawing  # noqa: E402
-import overlaps  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.collections import EllipseCollection  # noqa: E402
+from matplotlib.colors import LogNorm  # noqa: E402
 from yade import O, utils  # noqa: E402
 from yade.wrapper import (  # noqa: E402
     Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom,
     Ig2_Wall_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
+    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, Sphere)
 from yadefrag import CurveIntegrator, CurveLoop, LebesgueCollider, inCurveOrder  # noqa: E402
 
 ENGINES = {  # collider, interaction loop, integrator
@@ -44,6 +45,8 @@ SHAPE = (40, 25, 20)  # spheres along x, y, z: 20,000
 SPEED = 80.  # m/s
 CHECKS = (0, .05, .15, .35, .65, 1)  # of the steps
 OUT = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'out')
+NAMES = {'YADE': "YADE's engines", 'collider': 'LebesgueCollider', 'yadefrag': "yadefrag's engines"}
+COLOURS = {'collider': '#d1495b', 'loop': '#3d8fb5', 'integrator': '#8fb996', 'rest': '#cccccc'}
 
 
 def build(seed):
@@ -97,9 +100,9 @@ def run(name, seed, checks):
             while O.iter < stop - 1:
                 result['seconds'] += _timed(min(25, stop - 1 - O.iter))
                 bar.update(O.iter - bar.n)
-            before = overlaps.positions()  # the contacts of the next step belong to these positions
+            before = positions()  # the contacts of the next step belong to these positions
             result['seconds'] += _timed(1)
-            result['snapshots'].append(overlaps.snapshot(before))
+            result['snapshots'].append(snapshot(before))
             bar.update(O.iter - bar.n)
     result.update(collider=O.engines[1].execTime * 1e-9, loop=O.engines[2].execTime * 1e-9,
                   integrator=O.engines[3].execTime * 1e-9, activations=O.engines[1].execCount,
@@ -132,6 +135,155 @@ def table(results):
     return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
 
 
+# --- overlaps, found with SciPy's k-d tree and without a collider
+
+def positions():
+    """Centres (n, 3) of all spheres, m, in the order of their ids."""
+    return np.array([b.state.pos for b in O.bodies if isinstance(b.shape, Sphere)])
+
+
+def snapshot(before):
+    """State after a step that began at the centres `before` (n, 3): a dict of arrays.
+
+    `contacts` are the real sphere–sphere interactions as a sorted set, one number per pair;
+    `overlapping` the pairs that overlap at `before`; `x`, `speed`, `radii` the spheres.
+    """
+    spheres = [b for b in O.bodies if isinstance(b.shape, Sphere)]
+    radii = np.array([b.shape.radius for b in spheres])
+    n = len(spheres)
+    pairs = np.array([(i.id1, i.id2) for i in O.interactions], int).reshape(-1, 2)
+    pairs = np.sort(pairs[(pairs < n).all(axis=1)], axis=1)
+    return dict(before=before, radii=radii, contacts=np.sort(pairs[:, 0] * n + pairs[:, 1]),
+                overlapping=overlapping(before, radii), x=positions(),
+                speed=np.array([b.state.vel.norm() for b in spheres]))
+
+
+def overlapping(x, radii):
+    """Sorted pairs i * n + j, i < j, of spheres whose distance is below the sum of their radii.
+
+    Of spheres of one size the tree finds those that are near, the few larger ones are compared with all.
+    """
+    n, r = len(x), np.median(radii)
+    found = [_touching(np.full(n, b), np.arange(n), x, radii) for b in np.flatnonzero(radii > 1.001 * r)]
+    near = cKDTree(x).query_pairs(2.003 * r, output_type='ndarray')
+    return np.unique(np.concatenate([*found, _touching(*near.T, x, radii)]))
+
+
+def _touching(i, j, x, radii):
+    low, high = np.minimum(i, j), np.maximum(i, j)
+    overlap = radii[low] + radii[high] - np.linalg.norm(x[low] - x[high], axis=1)
+    keep = (overlap > 0) & (low != high)
+    return low[keep] * len(x) + high[keep]
+
+
+def compare(results, checks):
+    """Prints the agreement at each check; returns the number of wrong contacts."""
+    wrong = 0
+    for k, step in enumerate(checks):
+        shots = [r['snapshots'][k] for r in results]
+        for r, shot in zip(results, shots):
+            bad = np.setxor1d(shot['contacts'], shot['overlapping'])
+            if len(bad):
+                print(f'step {step}, {r["name"]}: {len(bad)} contacts are not the overlaps')
+                wrong += len(bad)
+        line = f'step {step:5}: contacts {len(shots[0]["contacts"]):6,}'
+        if len(shots) > 1:
+            line += '; ' + _difference(shots[0], shots[-1])
+            wrong += _impossible(shots[0], shots[-1])
+        print(line)
+    print('\nAll contacts are the pairs that overlap.' if not wrong
+          else f'\n{wrong} contacts are WRONG.')
+    if len(results) > 1:
+        print('(Positions differ since forces are summed in another order; see spheres.py.)')
+    return wrong
+
+
+def _difference(a, b):
+    moved = np.linalg.norm(a['before'] - b['before'], axis=1).max()
+    differing = len(np.setxor1d(a['contacts'], b['contacts']))
+    return f'differing {differing}; positions differ by at most {moved:.1e} m'
+
+
+def _impossible(a, b):
+    """Contacts of only one run that overlap by more than the difference of the two runs'
+    positions."""
+    pairs = np.setxor1d(a['contacts'], b['contacts'])
+    i, j = np.divmod(pairs, len(a['radii']))
+    touch = a['radii'][i] + a['radii'][j]
+    overlap = [touch - np.linalg.norm(s['before'][i] - s['before'][j], axis=1) for s in (a, b)]
+    moved = np.linalg.norm(a['before'] - b['before'], axis=1)
+    bad = np.maximum(*overlap) > (moved[i] + moved[j]) * (1 + 1e-9) + 1e-15
+    return int(bad.sum())
+
+
+# --- pictures
+
+def drawFrames(result, times, file):
+    """Frames side by side: a section through the bed, spheres coloured by speed (m/s)."""
+    shots = result['snapshots']
+    half = 1e2 * np.abs(shots[0]['x'][:, 0]).max() * 1.03
+    top = 1e2 * np.sort(shots[-1]['x'][:, 2])[-10] + 2
+    figure, axes = plt.subplots(2, -(-len(shots) // 2), figsize=(13, 7.6), sharex=True, sharey=True,
+                                layout='constrained')
+    norm = LogNorm(.05, 80)
+    for axis, shot, when in zip(axes.flat, shots, times):
+        spheres = _cut(axis, shot, norm)
+        axis.set_title(f'{1e3 * when:.1f} ms', loc='left', fontsize=11)
+        axis.set_xlim(-half, half)
+        axis.set_ylim(0, top)
+        axis.set_aspect('equal')
+        axis.set_facecolor('#f4f4f4')
+    for axis in axes[-1]:
+        axis.set_xlabel('x, cm')
+    for axis in axes[:, 0]:
+        axis.set_ylabel('z, cm')
+    figure.colorbar(spheres, ax=axes, label='speed, m/s', shrink=.8, pad=.01, extend='both',
+                    ticks=[.1, 1, 10], format='%g')
+    figure.suptitle(f'Steel ball into {len(shots[0]["x"]) - 1:,} spheres, cut at y = 0', fontsize=13)
+    figure.savefig(file, dpi=100)
+    plt.close(figure)
+
+
+def _cut(axis, shot, norm):
+    """Draw the spheres behind the plane y = 0, the nearest last."""
+    x, radii = shot['x'], shot['radii']
+    order = np.flatnonzero((x[:, 1] > -radii * .5) & (x[:, 1] < .1))
+    big = radii[order] > 2 * np.median(radii)
+    rank = np.argsort(-x[order, 1] + 10 * big)
+    order = order[rank]
+    spheres = EllipseCollection(2e2 * radii[order], 2e2 * radii[order], np.zeros(len(order)),
+                                units='xy', offsets=1e2 * x[order][:, [0, 2]],
+                                offset_transform=axis.transData, norm=norm, cmap='plasma',
+                                edgecolors='#00000080',
+                                linewidths=np.where(big[rank], 1.6, .3))
+    spheres.set_array(np.clip(shot['speed'][order], 1e-3, None))
+    axis.add_collection(spheres)
+    return spheres
+
+
+def drawTimes(results, file):
+    """Bars of the whole time, split into collider, interaction loop, integrator and the rest."""
+    figure, axis = plt.subplots(figsize=(8, 1.4 + .8 * len(results)), layout='constrained')
+    left = np.zeros(len(results))
+    y = np.arange(len(results))[::-1]
+    parts = {k: [r[k] for r in results] for k in ('collider', 'loop', 'integrator')}
+    parts['rest'] = [max(0, r['seconds'] - r['collider'] - r['loop'] - r['integrator'])
+                     for r in results]
+    names = dict(loop='interaction loop')
+    for part, values in parts.items():
+        axis.barh(y, values, left=left, height=.6, color=COLOURS[part], label=names.get(part, part))
+        left += values
+    axis.bar_label(axis.containers[-1], [f'{r["seconds"]:.1f} s' for r in results], padding=4)
+    axis.set_yticks(y, [NAMES[r['name']] for r in results])
+    axis.set_xlim(0, 1.12 * left.max())
+    axis.set_xlabel('time, s')
+    axis.spines[['top', 'right']].set_visible(False)
+    figure.suptitle('Projectile into 20,000 spheres: distribution of the time', fontsize=12)
+    axis.legend(loc='lower center', bbox_to_anchor=(.5, 1), ncol=4, frameon=False)
+    figure.savefig(file, dpi=110)
+    plt.close(figure)
+
+
 def main(arguments):
     """Run, compare, print, draw; returns the exit status."""
     parser = argparse.ArgumentParser(prog='spheres.py', description=__doc__.split('\n')[0])
@@ -150,11 +302,10 @@ def main(arguments):
     results = [run(name, options.seed, checks) for name in options.engines]
     print(f'\nProjectile into 20,000 spheres, {options.steps} steps of {O.dt:.2g} s\n')
     print(table(results), '\n')
-    missing = overlaps.compare(results, checks)
+    missing = compare(results, checks)
     os.makedirs(options.out, exist_ok=True)
-    drawing.frames(results[-1], [c * O.dt for c in checks],
-                   os.path.join(options.out, 'spheres.png'))
-    drawing.times(results, os.path.join(options.out, 'spheres_times.png'))
+    drawFrames(results[-1], [c * O.dt for c in checks], os.path.join(options.out, 'spheres.png'))
+    drawTimes(results, os.path.join(options.out, 'spheres_times.png'))
     print('Pictures:', ', '.join(os.path.relpath(os.path.join(options.out, name))
                                  for name in ('spheres.png', 'spheres_times.png')))
     return 1 if missing else 0

@@ -3,7 +3,7 @@
     scripts/bench tradeoff [--problems bars,hertz,rolling,ring,compression] [--repeats 3]
         [--time wall|cpu] [--draw] [--out FOLDER]
 
-For each problem a table of choices (NAME.csv, NAME.md) with times and errors, and a plot with the
+For each problem a table of choices (NAME.csv, and in tables.md) with times and errors, and a plot with the
 Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has all of them. README.md discusses the
 results.
 """
@@ -57,7 +57,16 @@ def together(tables, file, time):
     figure.savefig(file, dpi=100)
 
 
-def measure(problem, where, options):
+def sections(page):
+    """{title: text} of the tables in tables.md, if it exists."""
+    if not os.path.exists(page):
+        return {}
+    with open(page, encoding='utf-8') as f:
+        parts = ('\n' + f.read().rstrip()).split('\n# ')[1:]
+    return {part.split('\n')[0]: '# ' + part.rstrip() + '\n' for part in parts}
+
+
+def measure(problem, options):
     """The table of new runs; load, machine, date, commit and repeats as text."""
     from yadefrag import tradeoff
     about = 'Load %.1f before the run; %s. Medians of %d runs.\n' % (
@@ -66,25 +75,27 @@ def measure(problem, where, options):
                     limit=options.limit, **problem.ARGUMENTS), about
 
 
-def earlier(problem, where, options):
-    """The table of earlier runs, and the last line of its page."""
+def earlier(where, title, texts):
+    """The table of earlier runs, and the last line of its section."""
     from yadefrag import TradeoffTable
-    with open(where + '.md', encoding='utf-8') as f:
-        about = f.readlines()[-1]
-    return TradeoffTable.read(where + '.csv', problem.ARGUMENTS['title']), about
+    return TradeoffTable.read(where + '.csv', title), texts[title].splitlines()[-1] + '\n'
 
 
 def main():
     options = parse()
     os.makedirs(options.out, exist_ok=True)
-    tables = []
+    page = os.path.join(options.out, 'tables.md')
+    tables, texts = [], sections(page)
     for name in options.problems:
         problem = importlib.import_module(MODULES.get(name, name))
-        where = os.path.join(options.out, name)
-        table, about = (earlier if options.draw else measure)(problem, where, options)
-        table.write(where, options.time)
-        with open(where + '.md', 'a', encoding='utf-8') as f:
-            f.write('\n' + about)
+        where, title = os.path.join(options.out, name), problem.ARGUMENTS['title']
+        table, about = earlier(where, title, texts) if options.draw else measure(problem, options)
+        table.csv(where + '.csv')
+        if table.front(options.time):
+            table.plot(where + '.png', time=options.time)
+        texts[title] = table.markdown(time=options.time) + '\n' + about
+        with open(page, 'w', encoding='utf-8') as f:
+            f.write('\n'.join(texts.values()))
         tables.append(table)
         print(table.markdown(time=options.time))
     together(tables, os.path.join(options.out, 'tradeoff.png'), options.time)

@@ -26,9 +26,8 @@ from yadefrag import _yadefrag  # noqa: E402
 
 if TYPE_CHECKING:  # what publish() adds
     from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveIntegrator, CurveLoop, FEMat, FESolver,
-                              FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider,
-                              Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider, LinearCodeCollider, PlasticFEMat,
-                              SurfaceSegment)
+                              FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider, Ig2_Sphere_SurfaceSegment_ScGeom,
+                              LebesgueCollider, LinearCodeCollider, PlasticFEMat, SurfaceSegment)
     __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'CurveIntegrator', 'CurveLoop', 'FEMat', 'FESolver',
                'FrictionalFEMat', 'Gl1_SurfaceSegment', 'HierarchyCollider', 'Ig2_Sphere_SurfaceSegment_ScGeom',
                'LebesgueCollider', 'LinearCodeCollider', 'PlasticFEMat', 'SurfaceSegment']
@@ -39,8 +38,7 @@ else:
 from yadefrag import io, plots, studies  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
 from yadefrag.fe.fields import crackTable  # noqa: E402
-from yadefrag.fe.geometry import circle, rectangle, ring  # noqa: E402
-from yadefrag.fe.grains import grainJoints, voronoi  # noqa: E402
+from yadefrag.fe.geometry import circle, grainJoints, rectangle, ring, voronoi  # noqa: E402
 from yadefrag.fe.mesh import Mesh, polygonMesh, rectangleMesh
 from yadefrag.fe.neighbours import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
@@ -81,8 +79,7 @@ for _name in __all__:
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh', 'outlineReport', 'snapOutlines',
             'voronoi', 'grainJoints', 'Mesh', 'polygonMesh', 'rectangleMesh', 'plotMesh', 'animate', 'exportVTK',
             'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture', 'plotFracture', 'crackTable',
-            'engines', 'FERecorder', 'tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable', 'inCurveOrder',
-            'about']
+            'engines', 'FERecorder', 'tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
 for _name in __all__:
     if type(globals()[_name]) is type(inWords):
         _function = inWords(globals()[_name])

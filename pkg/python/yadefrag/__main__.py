@@ -29,14 +29,12 @@ def main() -> int:
         program, report = (os.path.join(folder, name) for name in ('program.py', 'report'))
         pathlib.Path(program).write_text(_PROGRAM % report, encoding='utf-8')
         done = subprocess.run([yade, '-n', '-x', program], cwd=folder, capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, env={**os.environ, 'PYTHONPATH': path},
-                              check=False)
+                              stdin=subprocess.DEVNULL, env={**os.environ, 'PYTHONPATH': path}, check=False)
         if os.path.exists(report):
             print(pathlib.Path(report).read_text(encoding='utf-8'), end='')
         else:
             lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-            print('yadefrag does not load in %s: %s' % (yade, lines[-1] if lines else 'no output'),
-                  file=sys.stderr)
+            print('yadefrag does not load in %s: %s' % (yade, lines[-1] if lines else 'no output'), file=sys.stderr)
     return 0 if done.returncode == 0 else 1
 
 

@@ -105,8 +105,7 @@ def pictureName(figure: Any, file: Any) -> str:
     ending = os.path.splitext(name)[1]
     known = sorted(figure.canvas.get_supported_filetypes())
     if ending and ending[1:].lower() not in known:
-        raise ValueError('file ends with %r, a picture must end with one of .%s.' %
-                         (ending[:20], ', .'.join(known)))
+        raise ValueError('file ends with %r, a picture must end with one of .%s.' % (ending[:20], ', .'.join(known)))
     return name if ending else name + '.' + figure.canvas.get_default_filetype()
 
 

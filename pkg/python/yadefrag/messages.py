@@ -105,8 +105,7 @@ def _inWords(what, known):
     return 'the %s %s' % (what, ', '.join(map(str, known[:_LISTED]))) + ' and others' * (len(known) > _LISTED)
 
 
-def inWords(function: Callable,
-            arranged: Callable[..., tuple[tuple, dict[str, Any]]] | None = None) -> Callable:
+def inWords(function: Callable, arranged: Callable[..., tuple[tuple, dict[str, Any]]] | None = None) -> Callable:
     """`function`, with a sentence as TypeError for arguments that are missing, unknown or too many.
 
     arranged  None, or a function of the arguments by position → (arguments by position, dict of others)
@@ -140,8 +139,7 @@ def _sentence(name, signature, given, settings):
         if key not in parameters:
             near = difflib.get_close_matches(key, parameters, 1)
             return '%s has no argument %s%s.' % (
-                name, shown(key), ', but %s' % near[0] if near else
-                ': it has %s' % (_listed(parameters) or 'none'))
+                name, shown(key), ', but %s' % near[0] if near else ': it has %s' % (_listed(parameters) or 'none'))
     places = [key for key, one in parameters.items() if one.kind in _BY_POSITION]
     if len(given) > len(places):
         if len(places) == len(parameters):

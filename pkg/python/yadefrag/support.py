@@ -85,8 +85,7 @@ def describeOtherBuild(libraries: str) -> str:
     if found == BUILD_ID:
         return ''
     return ('this build of yadefrag needs the YADE %s with the build id %s, and the running yade in %s has %s: '
-            'yadefrag must be built or installed again.' % (
-                VERSION, BUILD_ID or '(none)', libraries, found or 'none'))
+            'yadefrag must be built or installed again.' % (VERSION, BUILD_ID or '(none)', libraries, found or 'none'))
 
 
 def isReportAsked() -> bool:

@@ -18,16 +18,14 @@ kSpeed = .02        # m per step
 _chainNumbers = itertools.count()   # YADE keeps the chains of earlier scenes
 
 # These insert potential interactions by themselves, of bodies that have no bound.
-kInserting = ('Ig2_PFacet_PFacet_ScGeom', 'Ig2_GridConnection_PFacet_ScGeom',
-              'Ig2_Wall_PFacet_ScGeom')
+kInserting = ('Ig2_PFacet_PFacet_ScGeom', 'Ig2_GridConnection_PFacet_ScGeom', 'Ig2_Wall_PFacet_ScGeom')
 
 # These make contacts of any near bodies, so that what is real depends on the bounds.
 kNearIsReal = ('Ig2_Facet_Polyhedra_PolyhedraGeom', 'Ig2_Wall_Polyhedra_PolyhedraGeom',
                'Ig2_Polyhedra_Polyhedra_PolyhedraGeom', 'Ig2_Polyhedra_Polyhedra_ScGeom',
-               'Ig2_Polyhedra_Polyhedra_PolyhedraGeomOrScGeom',
-               'Ig2_Sphere_ChainedCylinder_CylScGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom6D',
-               'Ig2_LevelSet_LevelSet_VolumeGeom', 'Ig2_LevelSet_LevelSet_LSnodeGeom',
-               'Ig2_Wall_LevelSet_VolumeGeom')
+               'Ig2_Polyhedra_Polyhedra_PolyhedraGeomOrScGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom',
+               'Ig2_Sphere_ChainedCylinder_CylScGeom6D', 'Ig2_LevelSet_LevelSet_VolumeGeom',
+               'Ig2_LevelSet_LevelSet_LSnodeGeom', 'Ig2_Wall_LevelSet_VolumeGeom')
 
 kNoScene = {
     'Ig2_Tetra_Tetra_TTetraGeom':
@@ -66,13 +64,11 @@ def spheres(rng, n=50):
 
 
 def facets(rng, n=20):
-    fly(rng, [utils.facet([vector(x) for x in rng.uniform(-.2, .2, (3, 3))], material='m')
-              for _ in range(n)])
+    fly(rng, [utils.facet([vector(x) for x in rng.uniform(-.2, .2, (3, 3))], material='m') for _ in range(n)])
 
 
 def boxes(rng, n=12):
-    fly(rng, [utils.box((0, 0, 0), vector(rng.uniform(.02, .15, 3)), material='m')
-              for _ in range(n)])
+    fly(rng, [utils.box((0, 0, 0), vector(rng.uniform(.02, .15, 3)), material='m') for _ in range(n)])
 
 
 def sidedWalls(rng):
@@ -101,9 +97,8 @@ def tetrahedra(rng, n=25):
 
 
 def levelSets(rng, n=26, **more):
-    fly(rng, [utils.levelSetBody('superellipsoid', extents=(.12, .09, .07), epsilons=(.7, 1.2),
-                                 spacing=.03, nSurfNodes=102, material='m', **more) for _ in range(n)],
-        turn=.02)
+    fly(rng, [utils.levelSetBody('superellipsoid', extents=(.12, .09, .07), epsilons=(.7, 1.2), spacing=.03,
+                                 nSurfNodes=102, material='m', **more) for _ in range(n)], turn=.02)
 
 
 def levelSetsOfNeighbours(rng):
@@ -127,9 +122,8 @@ def potentialParticles(rng, n=20):
         box = Vector3(1, 1, 1) * half
         body = w.Body()
         body.shape = w.PotentialParticle(
-            k=.2, r=r, R=3**.5 * half, id=k, AabbMinMax=True, isBoundary=False,
-            a=[1, -1, 0, 0, 0, 0], b=[0, 0, 1, -1, 0, 0], c=[0, 0, 0, 0, 1, -1], d=[half - r] * 6,
-            minAabb=3**.5 * box, maxAabb=3**.5 * box,
+            k=.2, r=r, R=3**.5 * half, id=k, AabbMinMax=True, isBoundary=False, a=[1, -1, 0, 0, 0, 0],
+            b=[0, 0, 1, -1, 0, 0], c=[0, 0, 0, 0, 1, -1], d=[half - r] * 6, minAabb=3**.5 * box, maxAabb=3**.5 * box,
             minAabbRotated=1.02 * box, maxAabbRotated=1.02 * box)
         utils._commonBodySetup(body, 1, Vector3(1, 1, 1), material='m', pos=(0, 0, 0))
         bodies.append(body)
@@ -143,8 +137,7 @@ def chains(rng, n=6, links=4):
         start, step = rng.uniform(0, .7, 3), rng.normal(size=3) * .06
         velocity = rng.normal(size=3) * kSpeed
         for i in range(links):
-            with warnings.catch_warnings():
-                warnings.simplefilter('ignore')     # deprecated in YADE
+            with warnings.catch_warnings(action='ignore'):  # deprecated in YADE
                 body = gridpfacet.chainedCylinder(
                     vector(start + i * step), vector(start + (i + 1) * step), .03, material='m')
             body.state.blockedDOFs = 'xyzXYZ'
@@ -238,8 +231,7 @@ class Scene:
             physics.append(w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(
                 setCohesionNow=self.grid, setCohesionOnNewContacts=False))
         if self.grid:
-            laws = [*laws, 'Law2_ScGeom6D_CohFrictPhys_CohesionMoment',
-                    'Law2_ScGridCoGeom_FrictPhys_CundallStrack',
+            laws = [*laws, 'Law2_ScGeom6D_CohFrictPhys_CohesionMoment', 'Law2_ScGridCoGeom_FrictPhys_CundallStrack',
                     'Law2_GridCoGridCoGeom_FrictPhys_CundallStrack']
         others = ['Ig2_GridNode_GridNode_GridNodeGeom6D'] if self.grid else []
         geometry = list(dict.fromkeys([functor, *others, *self.others]))
@@ -275,10 +267,8 @@ kChained = dict(material=cohesiveMat, physics=[], cohesive=True)
 kSeveralPoints = dict(
     physics=[('Ip2_FrictMat_FrictMat_MultiFrictPhys', dict(kn=1e4, ks=1e4))],
     laws=[('Law2_MultiScGeom_MultiFrictPhys_CundallStrack', dict(sphericalBodies=False))])
-kOverlapVolume = dict(physics=['Ip2_FrictMat_FrictMat_KnKsPhys'],
-                      laws=['Law2_VolumeGeom_FrictPhys_Elastic'])
-kGridContacts = ['Ig2_GridConnection_GridConnection_GridCoGridCoGeom',
-                 'Ig2_Sphere_PFacet_ScGridCoGeom']
+kOverlapVolume = dict(physics=['Ip2_FrictMat_FrictMat_KnKsPhys'], laws=['Law2_VolumeGeom_FrictPhys_Elastic'])
+kGridContacts = ['Ig2_GridConnection_GridConnection_GridCoGridCoGeom', 'Ig2_Sphere_PFacet_ScGridCoGeom']
 
 kScenes = {
     'Ig2_Box_LevelSet_ScGeom': Scene(levelSets, floor),

@@ -60,8 +60,7 @@ def pile(rng):
     O.dt = 1e-4
     O.bodies.append(geom.facetBox((.5, .5, .5), (.6, .6, .6)))
     grid = np.stack(np.meshgrid(*[np.arange(6)] * 3), -1).reshape(-1, 3) * .162 + .08
-    addSpheres(grid + rng.normal(size=grid.shape) * .003, rng.uniform(.079, .083, len(grid)),
-               dynamic=True)
+    addSpheres(grid + rng.normal(size=grid.shape) * .003, rng.uniform(.079, .083, len(grid)), dynamic=True)
     return dict(newton=w.NewtonIntegrator(gravity=(0, 0, -9.81), damping=.2))
 
 
@@ -142,8 +141,7 @@ def sameContacts(collider, build, atLeast=20, **attributes):
 
 
 def flying(rng, n=80, speed=.02, radius=.05):
-    addSpheres(rng.uniform(0, 1, (n, 3)), rng.uniform(.5, 1, n) * radius,
-               rng.normal(size=(n, 3)) * speed)
+    addSpheres(rng.uniform(0, 1, (n, 3)), rng.uniform(.5, 1, n) * radius, rng.normal(size=(n, 3)) * speed)
 
 
 def flatFacets(rng):
@@ -185,8 +183,7 @@ def movingWalls(rng):
         body.state.vel = Vector3(*v)
 
 
-@pytest.mark.parametrize('build', [flatFacets, walls, hugeFloor, movingWalls],
-                         ids=lambda f: f.__name__)
+@pytest.mark.parametrize('build', [flatFacets, walls, hugeFloor, movingWalls], ids=lambda f: f.__name__)
 @pytest.mark.parametrize('verletDist', [-.5, 0, .1])
 def testShapes(collider, build, verletDist):
     sameContacts(collider, build, verletDist=verletDist)

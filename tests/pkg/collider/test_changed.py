@@ -60,18 +60,22 @@ def _check(collider):
     return len(sure)
 
 
+def _searches(collider, steps):
+    """The number of bodies of each search in some steps; all are compared with brute force."""
+    for _ in range(steps):
+        before = collider.numAction
+        stepAndCheck()
+        if collider.numAction > before:
+            _check(collider)
+            yield collider.searched
+
+
 @pytest.mark.long
 def testFewAreSearchedWhereFewMove():
     fast, collider = _cloud(2000, 1)
     stepAndCheck()
     assert collider.searched == 2000
-    counts = []
-    for _ in range(60):
-        before = collider.numAction
-        stepAndCheck()
-        if collider.numAction > before:
-            counts.append(collider.searched)
-            _check(collider)
+    counts = list(_searches(collider, 60))
     assert len(counts) >= 5
     # All are searched once in a while, when the few have cost as much.
     assert sum(n > len(fast) for n in counts) <= len(counts) / 5
@@ -81,14 +85,7 @@ def testFewAreSearchedWhereFewMove():
 def testSamePairsWhileSomeMove(seed):
     """A few fast ones among slow ones: most searches are of few, some of all."""
     _, collider = _cloud(600, seed, speed=.0005)
-    some = 0
-    for _ in range(80):
-        before = collider.numAction
-        stepAndCheck()
-        if collider.numAction > before:
-            _check(collider)
-            some += 0 < collider.searched < 600
-    assert some >= 5
+    assert sum(0 < count < 600 for count in _searches(collider, 80)) >= 5
 
 
 @pytest.mark.parametrize('redirection', [False, True])
@@ -99,11 +96,7 @@ def testSamePairsWhileBodiesComeAndGo(redirection):
     O.step()
     some = 0
     for step in range(60):
-        new = [utils.sphere(Vector3(rng.random(), rng.random(), rng.random()), RADIUS)
-               for _ in range(3)]
-        for body in new:
-            body.state.blockedDOFs = 'xyzXYZ'
-        O.bodies.append(new)
+        addSpheres([(rng.random(), rng.random(), rng.random()) for _ in range(3)], [RADIUS] * 3)
         for id in rng.sample([b.id for b in O.bodies], 3):
             O.bodies.erase(id)
         stepAndCheck()
@@ -162,9 +155,7 @@ def testWallsFacetsAndBoxesThatMove():
         found = {p for p in allPairs() if set(p) & set(ids)}
         for id in ids:
             bare = O.bodies[id].bound
-            for body in O.bodies:
-                if body.id in ids or not body.bound:
-                    continue
+            for body in (b for b in O.bodies if b.id not in ids and b.bound):
                 low, high = body.bound.min, body.bound.max
                 meets = all(low[k] <= bare.max[k] and bare.min[k] <= high[k] for k in range(3))
                 assert meets == (tuple(sorted((id, body.id))) in found), (step, id, body.id)
@@ -264,8 +255,7 @@ def testFlightsThatMeetAreFoundInTime():
         O.dt = 2e-3
         c, s = math.cos(turn), math.sin(turn)
         rows = np.arange(-20, 0) * 3. * LARGE
-        places = np.concatenate([[(c * x, s * x, .3 * x) for x in rows],
-                                 [(-s * x, c * x, -.3 * x) for x in rows]])
+        places = np.concatenate([[(c * x, s * x, .3 * x) for x in rows], [(-s * x, c * x, -.3 * x) for x in rows]])
         speeds = np.concatenate([np.tile((c, s, .3), (20, 1)), np.tile((-s, c, -.3), (20, 1))])
         addSpheres(places, np.full(40, LARGE), 2 * speeds)
         setEngines(makeCollider('LebesgueCollider'))
@@ -289,6 +279,7 @@ def _flightBesideARow():
 
 
 def testRadiiAreReadByEverySearch():
+    """An explicit search reads all."""
     ids, collider = _flightBesideARow()
     O.bodies[ids[100]].shape.radius = O.bodies[ids[101]].shape.radius = 1.6 * LARGE
     before = collider.numAction
@@ -296,9 +287,6 @@ def testRadiiAreReadByEverySearch():
         O.step()
     assert 1 < collider.searched < 10
     assert (ids[100], ids[101]) in realPairs()
-
-
-def testAnExplicitSearchReadsAll():
     clear()
     addSpheres([(0, 0, 0), (3 * LARGE, 0, 0)], [LARGE, LARGE], [(0, 0, 0), (0, SPEED, 0)])
     collider = setEngines(makeCollider('LebesgueCollider'))

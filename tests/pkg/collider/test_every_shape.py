@@ -92,9 +92,8 @@ def testNoShapeIsMissing():
 
 # --- interactions that no search has found
 
-kGeometry = ('Ig2_PFacet_PFacet_ScGeom', 'Ig2_GridConnection_PFacet_ScGeom',
-             'Ig2_Wall_PFacet_ScGeom', 'Ig2_Wall_Sphere_ScGeom',
-             'Ig2_Sphere_GridConnection_ScGridCoGeom')
+kGeometry = ('Ig2_PFacet_PFacet_ScGeom', 'Ig2_GridConnection_PFacet_ScGeom', 'Ig2_Wall_PFacet_ScGeom',
+             'Ig2_Wall_Sphere_ScGeom', 'Ig2_Sphere_GridConnection_ScGridCoGeom')
 
 
 def gridLoop():

@@ -15,48 +15,70 @@ kRotated = np.array([[.8, -.5, .1], [.6, .9, 0], [0, .2, 1.1]])
 kCells = dict(cubic=kCubic, long=kLong, sheared=kSheared, rotated=kRotated)
 
 
+def shear(rate):
+    return [[0, rate, 0], [0, 0, 0], [0, 0, 0]]
+
+
+def shearedCell(rate, axes=0):
+    """Edges along the axes, sheared along one of them or along all."""
+    return np.eye(3) + rate * np.array([shear(1), [[0, 1, .53], [0, 0, -.81], [0, 0, 0]]][axes])
+
+
+def periodic(hSize=kCubic):
+    O.periodic = True
+    O.cell.hSize = matrix(hSize)
+    O.dt = 1
+
+
 def gas(hSize, n=120, speed=.005, periods=0, seed=1, radius=.06):
     """Spheres anywhere in the cell, and up to `periods` periods away from it."""
     rng = np.random.default_rng(seed)
-    O.periodic = True
-    O.cell.hSize = matrix(hSize)
+    periodic(hSize)
     inCell = rng.uniform(0, 1, (n, 3)) + rng.integers(-periods, periods + 1, (n, 3))
-    O.dt = 1
-    addSpheres(inCell @ np.asarray(hSize).T, rng.uniform(.4, 1, n) * radius,
-               rng.normal(size=(n, 3)) * speed)
+    addSpheres(inCell @ np.asarray(hSize).T, rng.uniform(.4, 1, n) * radius, rng.normal(size=(n, 3)) * speed)
+
+
+kFlows = dict(
+    compression=np.diag([-.01] * 3), extension=np.diag([.01, .005, .02]), simpleShear=shear(.02),
+    pureShear=[[0, .01, 0], [.01, 0, 0], [0, 0, 0]], skew=[[0, .01, -.005], [0, 0, .01], [.01, 0, 0]])
+# name: (settings of the gas, of the collider, of the cell, steps, least number of contacts in all)
+kScenes = {
+    **{f'{name} cell at rest, verletDist {distance}': (dict(hSize=cell), dict(verletDist=distance), {}, 40, 100)
+       for name, cell in kCells.items() for distance in (0, -.5)},
+    # Bodies many periods away, on either side; cellDist holds the difference.
+    **{f'{name} cell, {periods} periods away': (dict(hSize=kCells[name], periods=periods, radius=.07), {}, {}, 10, 50)
+       for name in ('cubic', 'sheared') for periods in (1, 7, 1000, 10**6)},
+    # Fast bodies that cross the cell again and again, both ways.
+    'drift through periods': (dict(hSize=kCubic, speed=.04), {}, {}, 60, 100),
+    # Bodies are carried along (2) or left to themselves (0).
+    **{f'shear grows, homoDeform {deform}': (dict(hSize=shearedCell(6.), n=60, radius=.1), {},
+                                             dict(homoDeform=deform, velGrad=shear(.05)), 60, 100)
+       for deform in (0, 2)},
+    **{f'{name}, homoDeform {deform}': (dict(hSize=kCubic, n=100), {}, dict(homoDeform=deform, velGrad=flow), 40, 50)
+       for name, flow in kFlows.items() for deform in (0, 2)},
+    # Nothing moves but the cell: whether the bodies touch changes all the same.
+    'shear of bodies at rest': (dict(hSize=kCubic, speed=0), dict(verletDist=0), dict(homoDeform=0, velGrad=shear(.02)),
+                                30, 50)}
+
+
+@pytest.mark.parametrize('name', kScenes)
+def testScenes(collider, name):
+    bodies, attributes, cell, steps, least = kScenes[name]
+    gas(**bodies)
+    for key, value in cell.items():
+        setattr(O.cell, key, matrix(value) if key == 'velGrad' else value)
+    setEngines(collider(**attributes))
+    assert stepAndCheck(steps=steps) > least
 
 
 @pytest.mark.parametrize('verletDist', [0, -.5])
-@pytest.mark.parametrize('cell', kCells)
-def testCellsAtRest(collider, cell, verletDist):
-    gas(kCells[cell])
-    setEngines(collider(verletDist=verletDist))
-    assert stepAndCheck(steps=40) > 100
-
-
-def shearedCell(shear, axes):
-    """Edges along the axes, sheared along one of them or along all."""
-    return np.eye(3) + shear * np.array(
-        [[[0, 1, 0], [0, 0, 0], [0, 0, 0]], [[0, 1, .53], [0, 0, -.81], [0, 0, 0]]][axes])
-
-
-@pytest.mark.parametrize('verletDist', [0, -.5])
-@pytest.mark.parametrize('shear, axes', [(3., 1), (7.2, 0), (-7.3, 1), (12.4, 0), (31.5, 0)])
-def testStronglyShearedCells(collider, shear, axes, verletDist):
+@pytest.mark.parametrize('rate, axes', [(3., 1), (7.2, 0), (-7.3, 1), (12.4, 0), (31.5, 0)])
+def testStronglyShearedCells(collider, rate, axes, verletDist):
     """The nearest image is several cells away."""
-    gas(shearedCell(shear, axes), n=60, radius=.1, seed=int(abs(shear)))
+    gas(shearedCell(rate, axes), n=60, radius=.1, seed=int(abs(rate)))
     setEngines(collider(verletDist=verletDist))
     assert stepAndCheck(steps=6) > 60
-    assert max(abs(c) for dist in scenes.realPairs().values() for c in dist) > abs(shear) / 8
-
-
-@pytest.mark.parametrize('homoDeform', [0, 2])
-def testShearGrows(collider, homoDeform):
-    gas(shearedCell(6., 0), n=60, radius=.1)
-    O.cell.homoDeform = homoDeform
-    O.cell.velGrad = matrix([[0, .05, 0], [0, 0, 0], [0, 0, 0]])
-    setEngines(collider())
-    assert stepAndCheck(steps=60) > 100
+    assert max(abs(c) for dist in scenes.realPairs().values() for c in dist) > abs(rate) / 8
 
 
 def testNoCell(collider):
@@ -70,66 +92,21 @@ def testNoCell(collider):
 
 
 @pytest.mark.parametrize('verletDist', [0, -.5, .2])
-@pytest.mark.parametrize('shear', [0., .4, 5.])
-def testCellOfFourRadii(collider, shear, verletDist):
+@pytest.mark.parametrize('rate', [0., .4, 5.])
+def testCellOfFourRadii(collider, rate, verletDist):
     """Two images of one sphere touch another one shortly after each other."""
     total = 0
     for seed in range(10):
         scenes.clear()
-        gas(shearedCell(shear, 0), n=6, radius=.24, speed=.05, seed=seed)
+        gas(shearedCell(rate), n=6, radius=.24, speed=.05, seed=seed)
         setEngines(collider(verletDist=verletDist))
         total += stepAndCheck(steps=30)
     assert total > 300
 
 
-@pytest.mark.parametrize('periods', [1, 7, 1000, 10**6])
-@pytest.mark.parametrize('cell', ['cubic', 'sheared'])
-def testFarFromTheBaseCell(collider, cell, periods):
-    """Bodies many periods away, on either side; cellDist holds the difference."""
-    gas(kCells[cell], periods=periods, radius=.07)
-    setEngines(collider())
-    assert stepAndCheck(steps=10) > 50
-
-
-def testDriftThroughPeriods(collider):
-    """Fast bodies that cross the cell again and again, both ways."""
-    gas(kCubic, speed=.04)
-    setEngines(collider())
-    assert stepAndCheck(steps=60) > 100
-
-
-kFlows = dict(
-    compression=np.diag([-.01] * 3), extension=np.diag([.01, .005, .02]),
-    pureShear=[[0, .01, 0], [.01, 0, 0], [0, 0, 0]],
-    simpleShear=[[0, .02, 0], [0, 0, 0], [0, 0, 0]],
-    skew=[[0, .01, -.005], [0, 0, .01], [.01, 0, 0]])
-
-
-@pytest.mark.parametrize('homoDeform', [0, 2])
-@pytest.mark.parametrize('flow', kFlows)
-def testDeformingCells(collider, flow, homoDeform):
-    """velGrad with bodies carried along (2) or left to themselves (0)."""
-    gas(kCubic, n=100)
-    O.cell.homoDeform = homoDeform
-    O.cell.velGrad = matrix(kFlows[flow])
-    setEngines(collider())
-    assert stepAndCheck(steps=40) > 50
-
-
-def testShearOfBodiesAtRest(collider):
-    """Nothing moves but the cell: whether the bodies touch changes all the same."""
-    gas(kCubic, speed=0)
-    O.cell.homoDeform = 0
-    O.cell.velGrad = matrix([[0, .02, 0], [0, 0, 0], [0, 0, 0]])
-    setEngines(collider(verletDist=0))
-    assert stepAndCheck(steps=30) > 50
-
-
 def testCellDistOfExistingInteractions(collider):
     """A pair that is near for many steps keeps its cellDist while both drift through a period."""
-    O.periodic = True
-    O.cell.hSize = matrix(kCubic)
-    O.dt = 1
+    periodic()
     addSpheres([(.85, .5, .5), (1.05, .5, .5)], [.11, .11], [(.03, 0, 0)] * 2)
     setEngines(collider())
     for _ in range(100):
@@ -140,8 +117,7 @@ def testCellDistOfExistingInteractions(collider):
 def testFlipCell(collider):
     """After a flip the same bodies touch, with the cellDist of the new cell."""
     gas(kCubic, n=100)
-    O.cell.homoDeform = 0
-    O.cell.velGrad = matrix([[0, .05, 0], [0, 0, 0], [0, 0, 0]])
+    O.cell.homoDeform, O.cell.velGrad = 0, matrix(shear(.05))
     setEngines(collider(verletDist=0))
     stepAndCheck(steps=18)          # sheared by .9
     before = set(scenes.realPairs())
@@ -158,39 +134,29 @@ def testCellMadeAnew(collider):
     gas(kCubic, radius=.07)
     setEngines(collider(verletDist=0))
     assert stepAndCheck(steps=2)
-    O.periodic = False
-    assert realAfterClear() > 0
-    O.periodic = True
-    O.cell.hSize = matrix(kSheared)
-    assert realAfterClear() > 0
+    for isPeriodic in (False, True):
+        O.periodic = isPeriodic
+        if isPeriodic:
+            O.cell.hSize = matrix(kSheared)
+        O.interactions.clear()
+        assert stepAndCheck(steps=2) > 0
 
 
-def realAfterClear():
-    O.interactions.clear()
-    return stepAndCheck(steps=2)
+kBeside = np.array([.2, 0, 0])
 
 
-@pytest.mark.parametrize('radius', [.3, .45])
-@pytest.mark.parametrize('place', [(.5, .5, .5), (.02, .98, 7.3)])
-def testTooLarge(collider, radius, place):
-    O.periodic = True
-    O.cell.hSize = matrix(kCubic)
-    addSpheres([np.array(place) + [.2, 0, 0], place], [.05, radius])
-    setEngines(collider(verletDist=0))
-    with pytest.raises(RuntimeError) as error:
-        O.step()
-    assert kTooLarge in str(error.value)
-
-
-@pytest.mark.parametrize('radius', [.3, .6])
-def testTooLargeFirst(collider, radius):
-    """The large body first: the error, too, or no contact missed, but nothing silent."""
-    O.periodic = True
-    O.cell.hSize = matrix(kCubic)
-    addSpheres([(.5, .5, .5), (.7, .5, .5), (.05, .5, .5)], [radius, .05, .17])
+@pytest.mark.parametrize('places, radii, mayRun', [
+    *(([at + kBeside, at], [.05, radius], False) for at in map(np.array, [(.5, .5, .5), (.02, .98, 7.3)])
+      for radius in (.3, .45)),
+    # The large body first: the error, too, or no contact missed, but nothing silent.
+    *(([(.5, .5, .5), (.7, .5, .5), (.05, .5, .5)], [radius, .05, .17], True) for radius in (.3, .6))])
+def testTooLarge(collider, places, radii, mayRun):
+    periodic()
+    addSpheres(places, radii)
     setEngines(collider(verletDist=0))
     try:
         stepAndCheck(steps=3)
+        assert mayRun
     except RuntimeError as error:
         assert kTooLarge in str(error)
 
@@ -251,10 +217,8 @@ def testPeriodicComeAndGo(collider):
 
 def testTwoContactsAcrossTheCell(collider):
     """In a cell of four diameters a sphere has neighbours on both of its sides, one by image."""
-    O.periodic = True
-    O.cell.hSize = matrix(kCubic)
-    addSpheres([(.01, .5, .5), (.24, .5, .5), (.79, .5, .5), (.5, .01, .5), (.5, .99, .5)],
-               [.12, .12, .12, .1, .1])
+    periodic()
+    addSpheres([(.01, .5, .5), (.24, .5, .5), (.79, .5, .5), (.5, .01, .5), (.5, .99, .5)], [.12] * 3 + [.1] * 2)
     setEngines(collider())
     assert stepAndCheck(steps=2) == 6
     assert scenes.realPairs()[0, 2] == (-1, 0, 0)

@@ -1,9 +1,9 @@
 """YADE's own check scripts, unit tests and shipped examples, with a collider put in the place of
-YADE's (see swap.py): the quick checks with the loop and the integrator, too; the collider alone, and all others, in
+YADE's (yade_scripts.py): the quick checks with the loop and the integrator, too; the collider alone, and all others, in
 the long tests."""
 import json
 import os
-import subprocess
+import pathlib
 import tempfile
 from xml.etree import ElementTree
 
@@ -11,9 +11,9 @@ import pytest
 import yade.config
 
 import test_lifecycle
-from project import yadeCommand
+from project import inYade
 
-kHere = os.path.dirname(os.path.abspath(__file__))
+kHere = pathlib.Path(__file__).resolve().parent
 kExampleFolder = '/usr/share/doc/yade/examples'
 kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 
@@ -54,12 +54,10 @@ kNeeds = {
 kNoCollider = {'checkAlpha.py', 'checkShapeVolume.py', 'checkTestDummy.py', 'checkPotentialBlocks.py',
                'checkBlockGen.py', 'checkLiquidMigration.py'}
 # The collider is never among O.engines in a run: called by hand, or inside an integrator.
-kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py',
-          'checkGravityRungeKuttaCashKarp54.py'}
+kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py', 'checkGravityRungeKuttaCashKarp54.py'}
 kFoundChecks = {'checkTestTriax.py'}    # here the collider comes out of C++, not by name
 
-kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines',
-         'utilsModule']
+kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines', 'utilsModule']
 kUnitWithCollider = {'wrapper', 'core', 'cohesive-chain', 'engines', 'utilsModule'}
 
 kResults = {}
@@ -68,22 +66,18 @@ kResults = {}
 def outcome(collider, kind, names):
     """{name: dict} as yade_scripts.py reports it; one process for all, another one for the rest
     if a script takes it down."""
-    key = (collider, kind)
+    key = (collider, kind, *names)
     if key not in kResults:
         results, left = {}, list(names)
         while left:
             with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
-                done = subprocess.run(
-                    [*yadeCommand(), os.path.join(kHere, 'run_yade_scripts.py'), collider, kind, *left],
-                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder, timeout=400,
-                    text=True, errors='replace')
+                done = inYade(kHere / 'yade_scripts.py', collider, kind, *left, cwd=folder, timeout=400,
+                              errors='replace')
             lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ {')]
             results.update((r['name'], r) for r in map(json.loads, lines))
             left = [n for n in left if n not in results]
             if left:
-                results[left[0]] = dict(error=f'ended yade ({done.returncode}): '
-                                              f'{done.stdout[-1500:]}')
-                left.pop(0)
+                results[left.pop(0)] = dict(error=f'ended yade ({done.returncode}): {done.stdout[-1500:]}')
         kResults[key] = results
     return kResults[key]
 
@@ -100,14 +94,20 @@ def reasonToSkip(script):
     return needed and needed not in yade.config.features and f'this YADE is built without {needed}'
 
 
+def checked(script, scripts, collider):
+    """What a check script has reported, which succeeds; the others of the list are run in the same process."""
+    if why := reasonToSkip(script):
+        pytest.skip(why)
+    result = outcome(collider, 'checks', [x for x in scripts if not reasonToSkip(x)])[script]
+    assert result['error'] is None, result['error']
+    return result
+
+
 @pytest.mark.long
 @pytest.mark.parametrize('script', kQuickChecks + kLongChecks)
 def testCheckScript(collider, script):
-    if why := reasonToSkip(script):
-        pytest.skip(why)
-    names = [x for x in kQuickChecks + kLongChecks if not reasonToSkip(x)]
-    result = outcome(collider.name, 'checks', names)[script]
-    checkResult(collider, result)
+    result = checked(script, kQuickChecks + kLongChecks, collider.name)
+    assert result['rivals'] == 0, "YADE's own collider was still there"
     if script not in kNoCollider:
         assert result['made'] + result['found'] > 0
         assert (result['runs'] > 0) != (script in kNoRun)
@@ -118,11 +118,7 @@ def testCheckScript(collider, script):
 @pytest.mark.parametrize('script', kQuickChecks)
 def testCheckScriptWithLoopAndIntegrator(script):
     """The same with CurveLoop and CurveIntegrator in the place of YADE's, too."""
-    if why := reasonToSkip(script):
-        pytest.skip(why)
-    names = [x for x in kQuickChecks if not reasonToSkip(x)]
-    result = outcome('LebesgueCollider+all', 'checks', names)[script]
-    assert result['error'] is None, result['error']
+    result = checked(script, kQuickChecks, 'LebesgueCollider+all')
     if script not in {*kNoCollider, *kNoRun, *kFoundChecks}:
         assert result['loops'] == result['runs'] > 0
 
@@ -162,8 +158,7 @@ kShortExamples = [
     'test/facet-sphere-ViscElBasic-peri.py', 'PeriodicBoundaries/periodic-simple.py']
 kLongExamples = [
     'PeriodicBoundaries/cellFlipping.py', 'PeriodicBoundaries/periodic-simple-shear.py',
-    'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py',
-    'test/collider-stride-triax.py',
+    'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py', 'test/collider-stride-triax.py',
     'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
 
 
@@ -189,8 +184,7 @@ def compareMoments(expected, found, radius):
     total = 0
     assert [m['step'] for m in expected] == [m['step'] for m in found]
     for a, b in zip(expected, found):
-        missing, extra = (differences(x['contacts'], y['contacts'], 1e-5 * radius)
-                          for x, y in ((a, b), (b, a)))
+        missing, extra = (differences(x['contacts'], y['contacts'], 1e-5 * radius) for x, y in ((a, b), (b, a)))
         assert not missing and not extra, f'at step {a["step"]}'
         total += len(a['contacts'])
         if apart(a['positions'], b['positions']) > 1e-6 * radius:

@@ -23,8 +23,7 @@ def gas(collider, kind):
         O.periodic = True
         O.cell.hSize = scenes.matrix(np.eye(3))
     n = 1500
-    scenes.addSpheres(rng.uniform(0, 1, (n, 3)), rng.uniform(.015, .03, n),
-                      rng.normal(size=(n, 3)) * .002)
+    scenes.addSpheres(rng.uniform(0, 1, (n, 3)), rng.uniform(.015, .03, n), rng.normal(size=(n, 3)) * .002)
     if kind == 'mixed':
         for _ in range(60):
             corner = rng.uniform(0, 1, 3)

@@ -1,13 +1,28 @@
-"""Runs YADE's own scripts with a collider put in place of YADE's; run_yade_scripts.py starts it.
+"""Runs YADE's own scripts with one collider class in the place of every collider that YADE would make:
+`yade -n -x yade_scripts.py CLASS KIND NAME...`, see main().
 
 One line of JSON per script, after '@@@ '. Works in the current directory, which should be a
-temporary one. A module of its own, so that no script can overwrite a name in it.
+temporary one. The scripts run in yade's __main__, this is a module, so that no script can overwrite a name in it.
+
+Names (YADE's modules, the namespace that scripts run in), objects that come without a name (C++
+generators, O.load, the default engines) and typedEngine('InsertionSortCollider') all lead to the
+new class. `swap.count` counts: `made` by name, `found` as objects and replaced, `runs`
+that began with the new class among the engines, `rivals`: runs that began with one left (0!).
 """
-import builtins
-import json
 import os
-import random
 import sys
+
+if __name__ == '__main__':
+    kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
+    sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
+    import yade_scripts
+    yade_scripts.main(globals())
+    sys.exit()
+
+import builtins
+import collections
+import json
+import random
 import time as clock
 import unittest
 import unittest.mock
@@ -15,10 +30,136 @@ import unittest.mock
 import numpy
 import yade
 import yade.plot
-import yade.wrapper
-from swap import Swap, kRivals
+import yade.utils
+import yade.wrapper as w
 
 O = builtins.O
+kRivals = ('InsertionSortCollider', 'GeneralIntegratorInsertionSortCollider')
+
+
+class _Constructor(type):
+    """Metaclass of the stand-in for a collider's name: calling it makes the other class."""
+
+    def __call__(cls, *arguments, **attributes):
+        return cls.make(*arguments, **attributes)
+
+    def __instancecheck__(cls, thing):
+        return isinstance(thing, cls.target)
+
+
+class Swap:
+    """`target` is the class to put in; YADE's own works too (then objects are left as they are).
+
+    `everyStep` takes the strides away, whatever a script sets: the reference for contacts. `ours`: CurveLoop
+    and CurveIntegrator in the place of YADE's, where scripts make them; `loops` counts runs with the loop.
+    """
+
+    def __init__(self, target, everyStep=False, ours=False):
+        self.target, self.everyStep = target, everyStep
+        self.loop = w.CurveLoop if ours else None
+        self.rivals = {name: getattr(w, name) for name in kRivals}
+        self.left = [c for c in self.rivals.values() if c is not target]
+        self.count = collections.Counter(made=0, found=0, runs=0, rivals=0, loops=0)
+
+    def install(self, namespace):
+        """From here on, everywhere; `namespace` is the dict of globals that scripts run in."""
+        for name, rival in self.rivals.items():
+            self._rename(rival, self._constructor(name), namespace)
+        if self.loop:
+            self._rename(w.InteractionLoop, self.loop, namespace)
+            self._rename(w.NewtonIntegrator, w.CurveIntegrator, namespace)
+        original = yade.utils.typedEngine
+        self._rename(original, lambda name: original(
+            self.target.__name__ if name in kRivals else name), namespace)
+        yade.utils.defaultEngines = self.swapped(yade.utils.defaultEngines)
+        self._wrapOmega()
+        self.swapScene()
+
+    def _constructor(self, name):
+        def make(*arguments, **attributes):
+            self.count['made'] += 1
+            engine = self.target(*arguments, **attributes)
+            if name.startswith('General'):
+                engine.verletDist = 0   # its integrators do not watch the strides
+            return engine
+        return _Constructor(name, (), dict(make=staticmethod(make), target=self.target))
+
+    def _rename(self, old, new, namespace):
+        for module in list(sys.modules.values()):
+            scope = getattr(module, '__dict__', None)
+            if isinstance(scope, dict) and getattr(module, '__name__', '') != __name__:
+                self._renameIn(scope, old, new)
+        self._renameIn(namespace, old, new)
+
+    @staticmethod
+    def _renameIn(scope, old, new):
+        for name in [n for n, value in list(scope.items()) if value is old]:
+            scope[name] = new
+
+    def isRival(self, engine):
+        return type(engine) in self.left
+
+    def copy(self, rival):
+        """A collider of the new class with the attributes and bound functors of `rival`."""
+        engine = self.target(list(rival.boundDispatcher.functors))
+        attributes = rival.dict()
+        for name in ('boundDispatcher', 'numReinit'):
+            attributes.pop(name, None)
+        engine.updateAttrs(attributes)
+        if type(rival).__name__.startswith('General'):
+            engine.verletDist = 0
+        self.count['found'] += 1
+        return engine
+
+    def swapped(self, engines):
+        return [self.copy(e) if self.isRival(e) else e for e in engines]
+
+    def swapScene(self):
+        """Replaces what is among the engines of the present scene."""
+        engines = self._get(w.Omega())
+        if any(self.isRival(e) for e in engines):
+            self._set(w.Omega(), self.swapped(engines))
+
+    def _beforeRun(self):
+        self.swapScene()
+        engines = self._get(w.Omega())
+        if self.everyStep:
+            for engine in engines:
+                if isinstance(engine, w.Collider):
+                    engine.verletDist = 0
+        self.count['runs'] += any(type(e) is self.target for e in engines)
+        self.count['loops'] += self.loop is not None and any(type(e) is self.loop for e in engines)
+        self.count['rivals'] += any(self.isRival(e) for e in engines)
+
+    _get = staticmethod(w.Omega.engines.fget)
+    _set = staticmethod(w.Omega.engines.fset)
+
+    def _wrapOmega(self):
+        for name in ('run', 'step'):
+            self._wrap(w.Omega, name, before=self._beforeRun)
+        for name in ('load', 'reload', 'loadTmp', 'stringToScene', 'reset', 'switchScene', 'switchToScene'):
+            self._wrap(w.Omega, name, after=self.swapScene)
+        self._wrap(w.FileGenerator, 'load', after=self.swapScene)
+
+        def get(omega):
+            self.swapScene()
+            return self._get(omega)
+
+        w.Omega.engines = property(get, lambda omega, e: self._set(omega, self.swapped(e)))
+
+    @staticmethod
+    def _wrap(cls, name, before=lambda: None, after=lambda: None):
+        original = getattr(cls, name)
+
+        def wrapped(*arguments, **keywords):
+            before()
+            result = original(*arguments, **keywords)
+            after()
+            return result
+        setattr(cls, name, wrapped)
+
+
+# --- the scripts
 
 kYadeTests = os.path.join(os.path.dirname(yade.__file__), 'tests')
 
@@ -29,13 +170,6 @@ class Enough(Exception):
 
 class YadeCheckError(Exception):
     """The name that YADE's check scripts raise."""
-
-
-def colliderClass(name):
-    if name == 'InsertionSortCollider':
-        return yade.wrapper.InsertionSortCollider
-    import yadefrag
-    return getattr(yadefrag, name)
 
 
 def report(name, swap, before, started, **more):
@@ -88,11 +222,11 @@ class Leash:
     """
 
     def __init__(self):
-        self.step = yade.wrapper.Omega.step     # Omega.run would sleep 40 ms each time
+        self.step = w.Omega.step     # Omega.run would sleep 40 ms each time
         self.restart()
-        yade.wrapper.Omega.run = lambda omega, nSteps=-1, wait=False: self.go(omega, nSteps)
-        yade.wrapper.Omega.step = lambda omega: self.go(omega, 1)
-        yade.wrapper.Omega.wait = lambda omega: None
+        w.Omega.run = lambda omega, nSteps=-1, wait=False: self.go(omega, nSteps)
+        w.Omega.step = lambda omega: self.go(omega, 1)
+        w.Omega.wait = lambda omega: None
 
     def restart(self):
         self.steps, self.limit, self.next, self.moments = 0, None, 1, []
@@ -140,8 +274,7 @@ def makeRepeatable():
 
 def contacts():
     """[id1, id2, overlap] of the real interactions; overlap is None where the geometry has none."""
-    return sorted([i.id1, i.id2, getattr(i.geom, 'penetrationDepth', None)]
-                  for i in O.interactions)
+    return sorted([i.id1, i.id2, getattr(i.geom, 'penetrationDepth', None)] for i in O.interactions)
 
 
 def positions():
@@ -150,7 +283,7 @@ def positions():
 
 def radius():
     """A typical length of the bodies: the median radius of the spheres, 1 without any."""
-    radii = sorted(b.shape.radius for b in O.bodies if isinstance(b.shape, yade.wrapper.Sphere))
+    radii = sorted(b.shape.radius for b in O.bodies if isinstance(b.shape, w.Sphere))
     return radii[len(radii) // 2] if radii else 1.
 
 
@@ -180,7 +313,9 @@ def main(scope):
     name, kind, *names = sys.argv[1:]
     sys.argv = sys.argv[:1]
     name, *ours = name.split('+')
-    swap = Swap(colliderClass(name), everyStep=kind == 'reference', ours=bool(ours))
+    if name != 'InsertionSortCollider':
+        import yadefrag  # noqa: F401  adds its classes
+    swap = Swap(getattr(w, name), everyStep=kind == 'reference', ours=bool(ours))
     swap.install(scope)
     if kind == 'checks':
         runChecks(swap, names, scope)

@@ -1,18 +1,15 @@
 """YADE's rigid bodies that obey forces are part of the contact system: they and FE bodies exchange momentum and
 energy within the step, whatever their masses."""
-import builtins
 import math
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, kineticEnergy, momentum, run, steps
+from fe_scene import fe, kineticEnergy, momentum, O, run, steps
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Quaternion, Vector3
-
-O = builtins.O
 
 
 def free(body, mass=None, velocity=(0, 0), turning=0, blocked='zXY'):

@@ -11,11 +11,9 @@ import yade.wrapper as w
 import yadefrag  # noqa: F401
 from yade import utils
 from yadefrag import runSteps
-import fe_chain as chain
-from fe_scene import fe, impact, ready, run, steps
+from fe_scene import chain, fe, impact, newBall, O, ready, run, sphereEngines, steps
 from scenes import clear
 
-O = builtins.O
 SIZE = 3.49e-3  # m
 
 
@@ -210,8 +208,7 @@ def test_finerOnesTakeMoreSweeps():
 def ring(centre, count, component, mat, halo, selfContact=False):
     angles = np.arange(count) * 2 * math.pi / count
     points = np.stack([centre[0] + np.cos(angles), centre[1] + np.sin(angles)], axis=1)
-    return chain.straight(points, mat, closed=True, component=component, halo=halo,
-                          selfContact=selfContact)
+    return chain(points, mat, closed=True, component=component, halo=halo, selfContact=selfContact)
 
 
 def scene(collider, selfContact=False, spheres=()):
@@ -220,9 +217,9 @@ def scene(collider, selfContact=False, spheres=()):
     bodies = []
     for k, x in enumerate((0, 2.01, 4.02)):
         bodies += ring((x, .1 * k), 24, k, mat, .05, selfContact)
-    bodies += [chain.ball(at, .3, mat) for at in spheres]
+    bodies += [newBall(at, .3, mat) for at in spheres]
     O.bodies.append(bodies)
-    return chain.engines(collider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
+    return sphereEngines(collider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
 
 
 def overlapping():
@@ -270,7 +267,7 @@ def test_segmentsAloneAreSearchedOnDemand(collider):
     finder.doSort = True
     O.step()
     assert finder.numAction == 2
-    O.bodies.append(chain.ball((0, 1.2), .3, O.materials[0]))
+    O.bodies.append(newBall((0, 1.2), .3, O.materials[0]))
     O.step()
     assert finder.numAction == 3
     O.step()
@@ -283,16 +280,15 @@ def test_spheresAmongSegments(collider):
     O.dt = 1e-6
     O.step()
     assert set(finder.entryPairs()) == {p for p in overlapping() if not isSelf(p)}
-    kinds = {tuple(sorted(type(O.bodies[k].shape).__name__ for k in (i.id1, i.id2)))
-             for i in O.interactions.all()}
+    kinds = {tuple(sorted(type(O.bodies[k].shape).__name__ for k in (i.id1, i.id2))) for i in O.interactions.all()}
     assert kinds == {('Sphere', 'SurfaceSegment')}
     assert len(list(O.interactions)) >= 2
 
 
 def test_withoutSegmentsThereAreNoPairs(collider):
     finder = collider([w.Bo1_Sphere_Aabb()])
-    O.bodies.append([chain.ball((x, 0), .6, w.FEMat()) for x in range(3)])
-    chain.engines(finder)
+    O.bodies.append([newBall((x, 0), .6, w.FEMat()) for x in range(3)])
+    sphereEngines(finder)
     O.step()
     assert finder.entryPairs() == [] and len(O.interactions.all()) == 2
 
@@ -320,9 +316,8 @@ def test_boundsHoldUntilTheNextSearch(collider):
     fe = w.FESolver()
     fe.addPolygon(yadefrag.rectangle((0, .1), (1, .6)), size=.1, material='m',
                   velocity=lambda x, y: (-.7 * y, .7 * x - 1))
-    fe.addPolygon(yadefrag.rectangle((-.5, -.5), (1.5, 0)), size=.1, material='m',
-                  fixed=lambda x, y: y < -.499)
-    O.bodies.append([chain.ball((x, .9), .1, O.materials[0]) for x in (-.2, .3, .8)])
+    fe.addPolygon(yadefrag.rectangle((-.5, -.5), (1.5, 0)), size=.1, material='m', fixed=lambda x, y: y < -.499)
+    O.bodies.append([newBall((x, .9), .1, O.materials[0]) for x in (-.2, .3, .8)])
     O.engines = yadefrag.engines(fe, spheres=True, gravity=(0, -10), collider=getattr(w, collider.name))
     O.dt = .5 * fe.criticalTimeStep()
     finder, least = O.engines[1], []

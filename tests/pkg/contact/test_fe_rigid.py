@@ -1,17 +1,15 @@
 """YADE's Wall, Box and Facet are rigid bodies to FE bodies: contact forces act on both."""
-import builtins
 import math
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, run, steps
+from fe_scene import fe, finder, O, run, steps
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Quaternion
 
-O = builtins.O
 G = 9.81
 
 
@@ -33,8 +31,7 @@ def facet(a, b, height=1, **settings):
 def block(solver, low=(0, 0), size=.1, mesh=.025, velocity=(0, 0), angle=0, name=None, **settings):
     """A square on its lower left corner, turned by `angle` about that."""
     c, s = math.cos(angle), math.sin(angle)
-    corners = [(low[0] + c * x - s * y, low[1] + s * x + c * y)
-               for x, y in yadefrag.rectangle((0, 0), (size, size))]
+    corners = [(low[0] + c * x - s * y, low[1] + s * x + c * y) for x, y in yadefrag.rectangle((0, 0), (size, size))]
     return solver.addPolygon(corners, size=mesh, material='m', velocity=velocity, name=name, **settings)
 
 
@@ -67,8 +64,7 @@ def path(make, count=500, **settings):
     for _ in range(count):
         O.step()
         nodes.append(solver.nodes)
-        forces.append(sum(np.array(O.forces.f(b.id)) for b in O.bodies
-                          if not isinstance(b.shape, w.SurfaceSegment)))
+        forces.append(sum(np.array(O.forces.f(b.id)) for b in O.bodies if not isinstance(b.shape, w.SurfaceSegment)))
     return solver, np.array(nodes), np.array(forces)
 
 

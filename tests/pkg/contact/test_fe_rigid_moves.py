@@ -1,18 +1,16 @@
 """Rigid boundaries that meet at an angle, part, leave the plane of the bodies and come back, or run along themselves."""
-import builtins
 import math
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, ready, run, steps
+from fe_scene import fe, finder, O, ready, run, steps
 from test_fe_rigid import G, block, facet, smooth, wall
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Vector3
 
-O = builtins.O
 
 WAYS = [{'passes': passes} for passes in (1, 2)]
 
@@ -151,8 +149,7 @@ def shelf(kind):
     elif kind == 'box':
         number = O.bodies.append(utils.box((0, -.1, 0), (1, .1, .1), fixed=True))
     else:
-        number, _ = O.bodies.appendClumped([utils.box((0, -.1, 0), (1, .1, .1)),
-                                            utils.box((0, -.3, .4), (1, .1, .3))])
+        number, _ = O.bodies.appendClumped([utils.box((0, -.1, 0), (1, .1, .1)), utils.box((0, -.3, .4), (1, .1, .3))])
     body = O.bodies[number]
     body.state.blockedDOFs = 'xyzXYZ'
     return body

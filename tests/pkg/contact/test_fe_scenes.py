@@ -7,12 +7,9 @@ from random import Random
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, impact, ready, reloaded, run, steps, throwBall
+from fe_scene import fe, finder, impact, newBall, O, ready, reloaded, run, steps, throwBall
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def course(seed, folder=None):
@@ -20,8 +17,7 @@ def course(seed, folder=None):
     moments, too."""
     O.reset()
     random, moments = Random(seed), Random(seed + 1)
-    solver = impact(random.choice(['LebesgueCollider', 'InsertionSortCollider']),
-                    smooth=random.choice([False, True]))
+    solver = impact(random.choice(['LebesgueCollider', 'InsertionSortCollider']), smooth=random.choice([False, True]))
     throwBall((.15, .151), .05, (0, -1)).mask = random.choice([1, 2])
     run(solver, O.engines[1], spheres=True, factor=.5)
     for _ in range(15):
@@ -59,8 +55,7 @@ def test_damagedFileIsRefused(ending, damage, folder):
     with open(path, 'wb') as file:
         file.write(data[:at])
         if damage == 'edited':
-            digit = next(i for i in range(at, len(data)) if ending != '.xml' or
-                         chr(data[i]).isdigit())
+            digit = next(i for i in range(at, len(data)) if ending != '.xml' or chr(data[i]).isdigit())
             other = data[digit] ^ 1
             file.write(data[at:digit] + bytes([other]) + data[digit + 1:])
     O.reset()
@@ -113,7 +108,7 @@ def test_eraseIsRefused():
     with pytest.raises(ValueError, match='part of the boundary of body 0 of FESolver'):
         O.bodies.erase(3)
     assert len(O.bodies) == count and O.bodies[3]
-    ball = O.bodies.append(chain.ball((5, 5), .1, O.materials['m']))
+    ball = O.bodies.append(newBall((5, 5), .1, O.materials['m']))
     assert O.bodies.erase(ball) and not O.bodies.erase(ball)
     steps(3)
     O.bodies.clear()
@@ -154,7 +149,7 @@ def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
                                  velocity=(0, speed), element='smoothed' if kind == 'smoothed' else 'linear')
     add(0, 5)
     second = add(.0501, -5)
-    O.bodies.append(chain.ball((.05, .1107), .01, O.materials['m']))
+    O.bodies.append(newBall((.05, .1107), .01, O.materials['m']))
     O.bodies[-1].state.vel = (0, -8, 0)
     ready(solver, .3, spheres=True)
     while not any(i.isReal for i in O.interactions):
@@ -179,8 +174,7 @@ def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
 def test_bodiesJoinARun():
     solver = impact('LebesgueCollider')
     steps(100)
-    number = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m',
-                               velocity=(-3, 0))
+    number = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m', velocity=(-3, 0))
     assert number == 2
     steps(300)
     assert solver.fragments()[2]['velocity'][0] > -2.9

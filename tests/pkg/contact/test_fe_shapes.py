@@ -1,17 +1,15 @@
 """Surface segments, their bounds and their contacts with spheres: rigid chains made by hand."""
-import builtins
 import math
-import os
 
 import numpy as np
 import pytest
 
-import fe_chain as chain
+from fe_scene import chain, newBall, O, reloaded, rigid, sphereEngines, steps
 from outline_files import offLine
 import yadefrag
-from yade import wrapper as w
+from yade import utils, wrapper as w
+from yade.minieigenHP import Vector3
 
-O = builtins.O
 RADIUS = .1
 
 
@@ -25,43 +23,58 @@ def hexagon():
     return np.array([(math.cos(a), math.sin(a)) for a in np.arange(6) * math.pi / 3])
 
 
+def smoothChain(points, material, **attributes):
+    """Bodies of the arcs around the nodes of the closed polygon `points` (n, 2)."""
+    bodies = []
+    for i, b in enumerate(points):
+        a, c = points[i - 1], points[(i + 1) % len(points)]
+        start, middle, end, before, after = (
+            Vector3(*map(float, place), 0) for place in (.5 * (a + b), b, .5 * (b + c), b - a, c - b))
+        shape = w.SurfaceSegment(kind=3, start=start, middle=middle, end=end, before=before.normalized(),
+                                 after=after.normalized(), **attributes)
+        bodies.append(rigid(shape, material))
+    return bodies
+
+
+def arcPoints(points, count=400):
+    """Many points of the closed smooth curve around the nodes `points`, in order."""
+    xi = np.linspace(0, 1, count, endpoint=False)[:, None]
+    h = (2 - 3 * xi + xi**3) / 4, (2 + 3 * xi - 3 * xi**2) / 4, (3 * xi**2 - xi**3) / 4
+    return np.concatenate([sum(part * points[(i + k) % len(points)] for k, part in zip((-1, 0, 1), h))
+                           for i in range(len(points))])
+
+
 @pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
 def test_allIsSavedAndLoaded(ending, folder):
     brittle = w.BrittleFEMat(tensileStrength=3e8, fractureEnergy=50, shearFactor=2,
                              shearEnergyFactor=3, weibullModulus=20, strengthScatter=.1, seed=7, planeStress=True,
                              young=3e11, poisson=.2, density=3900, frictionAngle=.3, label='c')
     O.materials.append(brittle)
-    O.bodies.append(chain.smooth(hexagon(), brittle, halo=.01, entry=3, component=1,
-                                 selfContact=False))
-    chain.engines()
+    O.bodies.append(smoothChain(hexagon(), brittle, halo=.01, entry=3, component=1, selfContact=False))
+    sphereEngines()
     wanted = [O.bodies[2].shape.dict(), O.materials['c'].dict()]
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    O.reset()
-    O.load(path)
+    reloaded('%s/scene%s' % (folder, ending))
     shape = O.bodies[2].shape
     assert [shape.dict(), O.materials['c'].dict()] == wanted
     assert type(shape) is w.SurfaceSegment and type(O.materials['c']) is w.BrittleFEMat
     assert type(O.bodies[2].material) is w.BrittleFEMat
-    functors = [type(f).__name__ for f in O.engines[1].boundDispatcher.functors]
-    assert 'Bo1_SurfaceSegment_Aabb' in functors
-    functors = [type(f).__name__ for f in O.engines[2].geomDispatcher.functors]
-    assert 'Ig2_Sphere_SurfaceSegment_ScGeom' in functors
+    assert w.Bo1_SurfaceSegment_Aabb in map(type, O.engines[1].boundDispatcher.functors)
+    assert w.Ig2_Sphere_SurfaceSegment_ScGeom in map(type, O.engines[2].geomDispatcher.functors)
 
 
 def test_boundOfASegment(collider):
-    O.bodies.append(chain.straight([(1, 2), (4, 1)], material(), halo=.25))
-    chain.engines(collider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], verletDist=0))
+    O.bodies.append(chain([(1, 2), (4, 1)], material(), halo=.25))
+    sphereEngines(collider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], verletDist=0))
     O.step()
     bound = O.bodies[0].bound
     assert tuple(bound.min) == (.75, .75, -.25) and tuple(bound.max) == (4.25, 2.25, .25)
 
 
 def test_boundOfAnArcHoldsTheCurve():
-    O.bodies.append(chain.smooth(hexagon(), material()))
-    chain.engines()
+    O.bodies.append(smoothChain(hexagon(), material()))
+    sphereEngines()
     O.step()
-    points = chain.arcPoints(hexagon(), 200).reshape(6, 200, 2)
+    points = arcPoints(hexagon(), 200).reshape(6, 200, 2)
     for b, curve in zip(O.bodies, points):
         assert (curve >= np.array(b.bound.min)[:2] - 1e-12).all()
         assert (curve <= np.array(b.bound.max)[:2] + 1e-12).all()
@@ -72,23 +85,17 @@ def test_boundOfAnArcHoldsTheCurve():
         assert np.allclose(np.array(b.bound.max)[:2], hull.max(0))
 
 
-def steps(count):
-    """O.run would sleep for 40 ms each time."""
-    for _ in range(count):
-        O.step()
-
-
 def bounce(makeFloor, segmentsFirst):
     """Heights of a ball that falls onto a floor at y = 0 and comes back; one per 10 steps."""
     O.reset()
     O.dt = 2e-4
     mat = material()
     floor = makeFloor(mat)
-    ball = chain.ball((.237, .102), RADIUS, mat)
+    ball = newBall((.237, .102), RADIUS, mat)
     O.bodies.append(floor + [ball] if segmentsFirst else [ball] + floor)
     ball.state.vel = (0, -1, 0)
     ball.state.blockedDOFs = 'zXYZ'
-    chain.engines()
+    sphereEngines()
     heights = []
     for _ in range(60):
         steps(10)
@@ -99,11 +106,10 @@ def bounce(makeFloor, segmentsFirst):
 @pytest.mark.parametrize('segmentsFirst', [True, False])
 def test_flatChainIsAWall(segmentsFirst):
     def wall(mat):
-        from yade import utils
         return [utils.wall(0, axis=1, material=mat)]
 
     def segments(mat):
-        return chain.straight([(x, 0) for x in np.linspace(1, -1, 21)], mat)
+        return chain([(x, 0) for x in np.linspace(1, -1, 21)], mat)
 
     ours, velocity = bounce(segments, segmentsFirst)
     wanted, wallVelocity = bounce(wall, segmentsFirst)
@@ -125,18 +131,17 @@ def stiffness():
 
 
 def heldBall(bodies, mat):
-    ball = chain.ball((50, 50), RADIUS, mat)
+    ball = newBall((50, 50), RADIUS, mat)
     ball.state.blockedDOFs = 'xyzXYZ'
     O.bodies.append(bodies + [ball])
-    chain.engines(w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()],
-                                     verletDist=0), newton=False)
+    sphereEngines(w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], verletDist=0), newton=False)
     return ball
 
 
 def test_convexPolygonPushesByItsDistance():
     """Along a path around the hexagon, past sides and corners: once, by the true distance."""
     mat = material()
-    ball = heldBall(chain.straight(hexagon(), mat, closed=True), mat)
+    ball = heldBall(chain(hexagon(), mat, closed=True), mat)
     for angle in np.linspace(1e-3, 2 * math.pi, 331):
         ray = np.array([math.cos(angle), math.sin(angle)])
         for scale in (1.04, .95, .9):
@@ -151,15 +156,14 @@ def test_convexPolygonPushesByItsDistance():
 
 def test_arcsPushByTheirDistance():
     mat = material()
-    ball = heldBall(chain.smooth(hexagon(), mat), mat)
-    curve = chain.arcPoints(hexagon(), 2000)
+    ball = heldBall(smoothChain(hexagon(), mat), mat)
+    curve = arcPoints(hexagon(), 2000)
     for angle in np.linspace(0, 2 * math.pi, 301):
         ray = np.array([math.cos(angle), math.sin(angle)])
         centre = .97 * ray
         force = forceAt(ball, centre)
         wanted = max(RADIUS - offLine([centre], curve), 0)
-        assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted,
-                                                      abs=1e-5 * stiffness())
+        assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted, abs=1e-5 * stiffness())
         if wanted > 0:
             assert force @ ray > 0
 
@@ -169,7 +173,7 @@ def test_forceIsContinuousOverAJoint(bend):
     """A ball slides past the joint of two sides at angle `bend` (rad; positive: convex)."""
     mat = material()
     side = np.array([math.cos(bend), -math.sin(bend)])
-    ball = heldBall(chain.straight([side, (0, 0), (-1, 0)], mat), mat)
+    ball = heldBall(chain([side, (0, 0), (-1, 0)], mat), mat)
     step = 2e-4
     forces = []
     for x in np.arange(-.05, .05, step):
@@ -185,14 +189,14 @@ def test_forceIsContinuousOverAJoint(bend):
 
 def test_bothSidesOfAConcaveCornerHoldABall():
     mat = material()
-    ball = heldBall(chain.straight([(0, 1), (0, 0), (-1, 0)], mat), mat)
+    ball = heldBall(chain([(0, 1), (0, 0), (-1, 0)], mat), mat)
     force = forceAt(ball, (-.09, .08))
     assert force == pytest.approx(stiffness() * np.array([-.01, .02]), abs=1e-6 * stiffness())
 
 
 def test_deepBallIsPushedOut():
     mat = material()
-    ball = heldBall(chain.straight([(x, 0) for x in np.linspace(1, -1, 9)], mat), mat)
+    ball = heldBall(chain([(x, 0) for x in np.linspace(1, -1, 9)], mat), mat)
     for depth in (.2, .5, .9):
         force = forceAt(ball, (.1, -depth * RADIUS))
         assert force[1] == pytest.approx(stiffness() * RADIUS * (1 + depth), rel=1e-9)
@@ -206,12 +210,12 @@ def test_frictionlessRollKeepsItsEnergy():
     angles = np.arange(48) * 2 * math.pi / 48
     ring = np.array([((1 + .02 * math.cos(8 * a)) * math.cos(a),
                       (1 + .02 * math.cos(8 * a)) * math.sin(a)) for a in -angles])
-    O.bodies.append(chain.straight(ring, mat, closed=True))  # clockwise: a hole
-    ball = chain.ball((.7, 0), RADIUS, mat)
+    O.bodies.append(chain(ring, mat, closed=True))  # clockwise: a hole
+    ball = newBall((.7, 0), RADIUS, mat)
     ball.state.blockedDOFs = 'zXYZ'
     ball.state.vel = (.3, 1, 0)
     O.bodies.append(ball)
-    chain.engines()
+    sphereEngines()
     start = ball.state.vel.squaredNorm()
     speeds = []
     for _ in range(400):
@@ -228,7 +232,7 @@ def test_movingBoundaryDragsByFriction():
     mat = material()
     mat.frictionAngle = .5
     O.dt = 1e-5
-    floor = chain.straight([(1, 0), (-1, 0)], mat)
+    floor = chain([(1, 0), (-1, 0)], mat)
     floor[0].state.vel = (.2, 0, 0)
     floor[0].state.angVel = (0, 0, .5)
     ball = heldBall(floor, mat)
@@ -246,9 +250,8 @@ def test_movingBoundaryDragsByFriction():
 
 
 def test_explicitInteractionEitherWay():
-    from yade import utils
     mat = material()
-    ball = heldBall(chain.straight([(1, 0), (-1, 0)], mat), mat)
+    ball = heldBall(chain([(1, 0), (-1, 0)], mat), mat)
     ball.state.pos = (.1, .09, 0)
     for ids in ((0, 1), (1, 0)):
         O.interactions.clear()
@@ -261,6 +264,5 @@ def test_classesAreThere():
     for name in ('FEMat', 'BrittleFEMat', 'SurfaceSegment', 'Bo1_SurfaceSegment_Aabb',
                  'Ig2_Sphere_SurfaceSegment_ScGeom'):
         assert name in yadefrag.__all__
-    assert w.BrittleFEMat().dispHierarchy() == ['BrittleFEMat', 'FEMat', 'FrictMat', 'ElastMat',
-                                                'Material']
+    assert w.BrittleFEMat().dispHierarchy() == ['BrittleFEMat', 'FEMat', 'FrictMat', 'ElastMat', 'Material']
     assert w.SurfaceSegment().dispHierarchy() == ['SurfaceSegment', 'Shape']

@@ -5,13 +5,10 @@ import math
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
-from fe_impact import wallAndClump
-from fe_scene import fe, finder, kineticEnergy, momentum, run, solverOfScene, steps, throwBall
+from fe_impact import O, wallAndClump
+from fe_scene import fe, finder, kineticEnergy, momentum, newBall, run, solverOfScene, steps, throwBall
 from yade import wrapper as w
-
-O = builtins.O
 
 
 @pytest.mark.parametrize('smooth, friction, varying', [
@@ -20,8 +17,7 @@ def test_sphereOnABodyKeepsMomentum(smooth, friction, varying):
     """Also where O.dt changes in every step."""
     solver = fe()
     O.materials['m'].frictionAngle = friction
-    solver.addPolygon(yadefrag.rectangle((-.1, -.1), (.1, 0)), size=.02, material='m',
-                      smooth=smooth)
+    solver.addPolygon(yadefrag.rectangle((-.1, -.1), (.1, 0)), size=.02, material='m', smooth=smooth)
     ball = throwBall((.033, .052), .05, (.5, -1), spin=20)
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.3)
     linear, angular = momentum(solver)
@@ -57,8 +53,7 @@ def ledgerHolds(solver):
 def test_forceOnAPieceGoesToItsNodes():
     """Force and torque on an entry's body: sum and moment of the nodes' forces are the same."""
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m',
-                      smooth=[True, False, False, True])
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m', smooth=[True, False, False, True])
     run(solver, newton=False)
     for b in O.bodies:
         O.forces.setPermF(b.id, (3, -2, 0))
@@ -177,7 +172,7 @@ def test_curveIntegratorLeavesOutPieces():
         O.reset()
         solver, clump = wallAndClump(2e9)
         for number in range(4):
-            O.bodies.append(chain.ball((3 + number, 3, 0), .1, clump.material or O.materials[0]))
+            O.bodies.append(newBall((3 + number, 3, 0), .1, clump.material or O.materials[0]))
             O.bodies[-1].state.vel, O.bodies[-1].state.angVel = (0, -1, 0), (0, 0, 3)
         swapEngines('InteractionLoop', integrator)
         newton = O.engines[-1]
@@ -213,7 +208,7 @@ def sphereOn(radius, at, size):
     length = .25 * size
     # The contact's stiffness goes with the radius, and the nodes must be able to follow it.
     soft = w.FrictMat(young=YOUNG / max(1, radius), poisson=.3, density=DENSITY, frictionAngle=.3)
-    ball = chain.ball((x + .07 * size, y + radius * length * (1 + 1e-6)), radius * length, soft)
+    ball = newBall((x + .07 * size, y + radius * length * (1 + 1e-6)), radius * length, soft)
     # A contact takes some ten steps, or more.
     dt = min(.5 * solver.criticalTimeStep(), .3 * radius * length / WAVE)
     ball.state.vel = (0, -1e-4 * min(1, radius) * length / dt, 0)

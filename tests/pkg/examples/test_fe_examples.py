@@ -1,7 +1,7 @@
 """The finite-element examples and those of examples/small, short, each in a yade of its own: they run, and the
 physics is right; others: tests/validation/yade/test_long_examples.py. scripts/gallery: its makers are those of the
 pictures and tables that the pages show; a maker that fails changes nothing. All Python of the manual and the README
-runs, as it is printed there; so do the cases of tests/pkg/examples/cases."""
+runs, as it is printed there; so do the cases of cases.py."""
 import importlib.util
 import os
 import pathlib
@@ -16,9 +16,7 @@ import time
 import numpy as np
 import pytest
 import yadefrag
-from project import (
-    checkReports, figures, kHanging, kShort, kSmall, numbers, ROOT, rows, run, start, yadeCommand)
-
+from project import checkReports, figures, inYade, kHanging, kShort, kSmall, numbers, ROOT, rows, run, start
 
 PAGES = [ROOT / 'README.md', *(ROOT / 'docs').glob('*.md'), *(ROOT / 'examples').glob('**/README.md')]
 SCRIPT = '''
@@ -35,12 +33,17 @@ if 'forget' not in sys.argv:
 README = 'before\n\n<!-- figures: x -->\nold\n<!-- end of figures -->\n\nafter\n'
 
 
-@pytest.fixture
-def gallery():
-    spec = importlib.util.spec_from_file_location('gallery', ROOT / 'scripts' / 'gallery.py')
+def loaded(path):
+    """The module in a file of the project, which is no package."""
+    spec = importlib.util.spec_from_file_location(path, ROOT / path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture
+def gallery():
+    return loaded('scripts/gallery.py')
 
 
 @pytest.fixture
@@ -84,12 +87,9 @@ def test_eachTableHasItsMakerMachineDateAndCommit(gallery):
         assert table.startswith('|') and re.search(origin, table), name
 
 
-def test_theListShowsEachMaker(gallery):
+def test_theListShowsEachMakerAndAnUnknownOneIsNamed(gallery):
     done = subprocess.run([ROOT / 'scripts' / 'gallery', '--list'], capture_output=True, text=True, check=True)
     assert [line.split()[0] for line in done.stdout.splitlines()] == [m.name for m in gallery.MAKERS]
-
-
-def test_anUnknownMakerIsNamed():
     done = subprocess.run([ROOT / 'scripts' / 'gallery', 'impct'], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and "no maker 'impct'; there are impact, " in done.stderr
 
@@ -243,8 +243,7 @@ def test_interruptedRunStillReports(folder):
     assert os.listdir(folder) == ['squares.png']
 
 
-kScenes = ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher',
-           'monte_carlo')
+kScenes = ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo')
 
 
 def test_columnCarriesItsWeight(folder):
@@ -296,17 +295,13 @@ def test_crusherKeepsMomentum(folder):
 
 @pytest.mark.parametrize('name', kScenes)
 def test_scriptsAreShort(name):
-    with open(os.path.join(kSmall, name + '.py')) as script:
-        assert len(script.read().splitlines()) < 60
-    assert os.path.exists(os.path.join(kSmall, name + '.png'))
+    script = pathlib.Path(kSmall, name + '.py')
+    assert len(script.read_text().splitlines()) < 60 and script.with_suffix('.png').exists()
 
 
-BLOCKS = {f'{page.name}-{number}': block
-          for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
+BLOCKS = {f'{page.name}-{number}': block for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
           for number, block in enumerate(re.findall(r'^```python\n(.*?)^```', page.read_text(), re.S | re.M))}
-CASES = pathlib.Path(__file__).resolve().parent / 'cases'
-kCases = sorted(case.name for case in CASES.glob('*.py'))
-kLong = 'concrete_softening.py', 'crushed_rock_ledger.py'
+CASES = pathlib.Path(__file__).resolve().with_name('cases.py')
 # What a recipe prints beside a closed form; 15 %: coarse meshes, the disc has 10 % too much.
 BY_HAND = r': ([-+.e\d]+) \S+, by hand ([-+.e\d]+) \S+'
 
@@ -316,8 +311,7 @@ BY_HAND = r': ([-+.e\d]+) \S+, by hand ([-+.e\d]+) \S+'
 def test_blockRuns(folder, name):
     script = pathlib.Path(folder) / 'block.py'
     script.write_text(BLOCKS[name] + "\nprint('ran to its end')\n")
-    done = subprocess.run([*yadeCommand(), str(script)], cwd=folder, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=600)
+    done = inYade(script, cwd=folder, timeout=600)
     assert done.returncode == 0 and 'ran to its end' in done.stdout, done.stdout
     assert 'Traceback' not in done.stdout and 'yadefrag:' not in done.stdout, done.stdout
     for found, right in re.findall(BY_HAND, done.stdout):
@@ -325,27 +319,23 @@ def test_blockRuns(folder, name):
     assert len(re.findall(BY_HAND, done.stdout)) == BLOCKS[name].count(', by hand '), done.stdout
 
 
-def test_thereAreBlocksAndCases():
-    assert kCases and set(kLong) <= set(kCases)
+def test_thereAreBlocks():
     assert len(BLOCKS) >= 12 and any(name.startswith('getting_started') for name in BLOCKS)
 
 
 def test_referenceHasTheDocstrings():
     """docs/make_reference.py, which scripts/docs runs."""
-    spec = importlib.util.spec_from_file_location('make_reference', ROOT / 'docs' / 'make_reference.py')
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    found = module.page()
+    found = loaded('docs/make_reference.py').page()
     assert [name for name in yadefrag.__all__ if not re.search(rf'^### `{name}\b', found, re.M)] == []
     for words in ('### `plotMesh(fe,', '`addPolygon(self, outline,', '- `size`: length of the triangles', '`fractureEnergy`'):
         assert words in found
 
 
-@pytest.mark.parametrize('name', [pytest.param(name, marks=[pytest.mark.long] * (name in kLong)) for name in kCases])
+@pytest.mark.long
+@pytest.mark.parametrize('name', ['softeningOfConcrete', 'ledgerOfCrushedRock'])
 def test_caseHolds(name, folder):
     """Scenes and files as users bring them, which once failed; each in a yade of its own. A case says at its top what is
     expected, computes it apart from the engine, and exits with 0 if it holds."""
-    done = subprocess.run([*yadeCommand(), '-j1', str(CASES / name)], cwd=folder,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=900)
+    done = inYade(CASES, name, cwd=folder, timeout=900, options=['-j1'])
     # YADE's own exit code of a script that ends with an exception is 1 as well.
     assert done.returncode == 0, done.stdout[-3000:]

@@ -1,33 +1,14 @@
 """engines(fe, spheres=True), and engines that a script lists: a sphere is stopped by every shape that has a functor,
 and a message names those that it goes through. Shapes of YADE x engines x colliders; also shapes that appear later."""
-import builtins
-
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, ready, reloaded, steps, throwBall
+from fe_scene import fe, O, ready, reloaded, steps, throwBall
 from yade import gridpfacet, utils
 from yade import wrapper as w
 
-O = builtins.O
 RADIUS = .05
-
-
-def wall():
-    return O.bodies.append(utils.wall(0, axis=1, material='m'))
-
-
-def box():
-    return O.bodies.append(utils.box((0, -.1, 0), (.2, .1, .2), fixed=True, material='m'))
-
-
-def facet():
-    return O.bodies.append(utils.facet([(-.3, 0, -.3), (.3, 0, -.3), (0, 0, .4)], fixed=True, material='m'))
-
-
-def other():
-    return O.bodies.append(utils.sphere((0, -.1, 0), .1, fixed=True, material='m'))
 
 
 def clump():
@@ -36,19 +17,19 @@ def clump():
     return number
 
 
-def tetra():
-    return O.bodies.append(utils.tetra([(-.3, 0, -.3), (.3, 0, -.3), (0, 0, .4), (0, -.2, 0)], fixed=True, material='m'))
-
-
 def connection():
     O.materials.append(w.CohFrictMat(label='node'))
     ends = [O.bodies.append(gridpfacet.gridNode((x, -.03, 0), .03, fixed=True, material='node')) for x in (-.3, .3)]
-    one = gridpfacet.gridConnection(*ends, .03, material='m')
-    return O.bodies.append(one)
+    return O.bodies.append(gridpfacet.gridConnection(*ends, .03, material='m'))
 
 
-STOPPING = dict(Wall=wall, Box=box, Facet=facet, Sphere=other, Clump=clump)
-OTHERS = dict(Tetra=tetra, GridConnection=connection)
+HELD = dict(fixed=True, material='m')
+CORNERS = [(-.3, 0, -.3), (.3, 0, -.3), (0, 0, .4)]
+STOPPING = dict(Wall=lambda: O.bodies.append(utils.wall(0, axis=1, material='m')),
+                Box=lambda: O.bodies.append(utils.box((0, -.1, 0), (.2, .1, .2), **HELD)),
+                Facet=lambda: O.bodies.append(utils.facet(CORNERS, **HELD)),
+                Sphere=lambda: O.bodies.append(utils.sphere((0, -.1, 0), .1, **HELD)), Clump=clump)
+OTHERS = dict(Tetra=lambda: O.bodies.append(utils.tetra(CORNERS + [(0, -.2, 0)], **HELD)), GridConnection=connection)
 IG = {'Wall': 'Ig2_Wall_Sphere_ScGeom', 'Box': 'Ig2_Box_Sphere_ScGeom', 'Facet': 'Ig2_Facet_Sphere_ScGeom',
       'Sphere': 'Ig2_Sphere_Sphere_ScGeom'}
 CHOICES = {

@@ -1,5 +1,4 @@
 """Pressure that follows the boundary, boundaries that let waves out, and the way to rest."""
-import builtins
 import math
 import os
 
@@ -7,10 +6,9 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, momentum, run, solverOfScene, steps
+from fe_scene import fe, momentum, O, run, solverOfScene, steps
 from yade import wrapper as w
 
-O = builtins.O
 YOUNG, POISSON, DENSITY = 1e7, .3, 1000.  # fe_scene's material
 
 

@@ -1,6 +1,5 @@
 """Reactions, forces of contact, strains, principal stresses and cracks, against what they must be. YADE's 3D view
 shows FE bodies, beside spheres: pictures of it, pixel by pixel."""
-import builtins
 import csv
 import math
 import os
@@ -8,14 +7,15 @@ import shutil
 import subprocess
 import tempfile
 
+import meshio
 import numpy as np
+from PIL import Image
 import pytest
 import yadefrag
 from yade import utils, wrapper as w
-from fe_scene import fe, run, steps
+from fe_scene import fe, O, run, steps
 from project import yadeCommand
 
-O = builtins.O
 WEIGHT = 1000 * 9.81  # of a block of 1 m
 
 
@@ -151,7 +151,6 @@ def test_heldCracksAreDrawnAndExported(folder, wall):
     middles = drawn.mean(axis=1)
     assert middles == pytest.approx(np.stack([table['x'], table['y']], axis=1), abs=1e-12)
     assert np.hypot(*(drawn[:, 1] - drawn[:, 0]).T) == pytest.approx([.1, .1], rel=.05)
-    meshio = pytest.importorskip('meshio')
     yadefrag.exportVTK(solver, folder + '/out.vtu')
     mesh = meshio.read(folder + '/out.vtu')
     places = mesh.points[mesh.cells_dict['line']][:, :, :2]
@@ -208,17 +207,15 @@ BACK = 51  # the grey that YADE's view has behind the scene
 @pytest.fixture(scope='module')
 def pictures():
     """{name: array (400, 500, 3) of the window with the view}."""
-    image = pytest.importorskip('PIL.Image')
     if not shutil.which('xvfb-run'):
         pytest.skip('no xvfb-run')
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
         command = [part for part in yadeCommand() if part != '-n']
         done = subprocess.run(
-            ['xvfb-run', '-a', '-s', '-screen 0 600x500x24', *command,
-             os.path.join(kHere, 'gl_scene.py'), folder],
+            ['xvfb-run', '-a', '-s', '-screen 0 600x500x24', *command, os.path.join(kHere, 'gl_scene.py'), folder],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
         assert done.returncode == 0, done.stdout[-2000:]
-        found = {name[:-4]: np.asarray(image.open(os.path.join(folder, name)).convert('RGB'))[:400, :500]
+        found = {name[:-4]: np.asarray(Image.open(os.path.join(folder, name)).convert('RGB'))[:400, :500]
                  for name in os.listdir(folder) if name.endswith('.png')}
         found['cracks'] = np.load(os.path.join(folder, 'cracks.npy'))
         yield found
@@ -241,8 +238,7 @@ def test_bodiesAreFilledBesideSpheres(pictures):
     over which the black boundary lies. The sphere is a shaded green."""
     (one, large), (other, small) = sorted(counts(pictures['component']).items(), key=lambda item: -item[1])[:2]
     assert large > 10000 and small / large == pytest.approx(np.pi / 4, rel=.03)
-    rows = {colour: np.argwhere((pictures['component'] == colour).all(axis=2)).mean(axis=0)
-            for colour in (one, other)}
+    rows = {colour: np.argwhere((pictures['component'] == colour).all(axis=2)).mean(axis=0) for colour in (one, other)}
     assert rows[one][1] < 200 < 300 < rows[other][1]  # the square is on the left, the disc on the right
     assert rows[one][0] == pytest.approx(rows[other][0], abs=3)
     green = share(pictures['component'], lambda r, g, b: g > 100 and r < .6 * g and b < .6 * g)

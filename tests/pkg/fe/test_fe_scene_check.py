@@ -1,6 +1,5 @@
 """Contacts and forces that FE bodies will not have are reported once; gravity is that of the scene. The order of engines
 around an FESolver: momentum is kept, or the first step is refused."""
-import builtins
 import itertools
 import os
 
@@ -8,11 +7,10 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, momentum, reloaded, run, steps
+from fe_scene import fe, finder, momentum, O, reloaded, run, solverOfScene, steps
 from yade import utils
 from yade import wrapper as w
 
-O = builtins.O
 SPHERE = 'Ig2_Sphere_SurfaceSegment_ScGeom'
 
 
@@ -23,8 +21,8 @@ def scene(spheres=True, **settings):
     return solver
 
 
-def ball(place=(.5, 3, 0), blocked='zXY', **settings):
-    body = utils.sphere(place, .1, material='m', **settings)
+def ball(place=(.5, 3, 0), blocked='zXY'):
+    body = utils.sphere(place, .1, material='m')
     body.state.blockedDOFs = blocked
     O.bodies.append(body)
     return body
@@ -38,15 +36,23 @@ def messages(solver, capfd):
 
 
 def test_completeSceneGivesNoMessage(capfd):
+    """Forces of FESolver alone do not add up: it takes back those of the last step, if no ForceResetter has."""
     solver = scene()
     ball()
     steps(5)
+    assert messages(solver, capfd) == []
+    O.reset()
+    solver = scene(spheres=False)
+    O.bodies.append(utils.wall(-1, axis=1))
+    O.engines = [solver]
+    steps(2)
     assert messages(solver, capfd) == []
 
 
 @pytest.mark.parametrize('make, shape', [
     (lambda: utils.wall(-1, axis=1), 'Wall'), (lambda: utils.box((0, -1, 0), (1, .1, 1)), 'Box'),
-    (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet')])
+    (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet'),
+    (lambda: utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'), 'Tetra')])
 def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
     solver = scene(rigidBodies=False)
     steps(2)
@@ -56,14 +62,14 @@ def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
     O.bodies.append(make())  # the same kind again
     steps(2)
     [sentence] = messages(solver, capfd)
-    assert sentence.startswith('FE bodies go through bodies of the shape %s, such as #%d: ' % (shape, number))
+    assert sentence.startswith('FE bodies go through bodies of the shape %s, such as #%d: %s' % (
+        shape, number, 'they touch each other, spheres, walls, boxes and facets only' * (shape == 'Tetra')))
     # It is part of the scene, and not repeated.
     path = os.path.join(folder, 'scene.yade')
     O.save(path)
     O.load(path)
     steps(2)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    assert solver.warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
+    assert solverOfScene().warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
 
 
 def test_masksThatExcludeContactOfBodiesAreReported(capfd):
@@ -77,24 +83,6 @@ def test_masksThatExcludeContactOfBodiesAreReported(capfd):
     for body in O.bodies:
         body.mask = 3
     assert len(solver.warnings) == 1
-
-
-def test_otherShapesAreReported(capfd):
-    solver = scene()
-    O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'))
-    steps(2)
-    [sentence] = messages(solver, capfd)
-    assert sentence.startswith('FE bodies go through bodies of the shape Tetra, such as #%d: they touch '
-                               'each other, spheres, walls, boxes and facets only' % O.bodies[-1].id)
-
-
-def test_forcesOfFESolverDoNotAddUp(capfd):
-    """It takes back those of the last step, if no ForceResetter has."""
-    solver = scene(spheres=False)
-    O.bodies.append(utils.wall(-1, axis=1))
-    O.engines = [solver]
-    steps(2)
-    assert messages(solver, capfd) == []
 
 
 def without(solver, name):
@@ -198,10 +186,9 @@ def blow(order):
     sphere.state.vel = (2, 0, 0)
     O.bodies.append(sphere)
     made = dict(
-        R=w.ForceResetter(), C=finder('LebesgueCollider'), F=solver,
-        N=w.NewtonIntegrator(damping=0), I=w.InteractionLoop(
-            [w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-            [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
+        R=w.ForceResetter(), C=finder('LebesgueCollider'), F=solver, N=w.NewtonIntegrator(damping=0),
+        I=w.InteractionLoop([w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                            [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
     O.engines = [made[letter] for letter in order]
     O.dt = .05 * solver.criticalTimeStep()
     return solver
@@ -232,14 +219,12 @@ def test_momentumIsKeptOrTheOrderRefused(order):
     assert np.abs(after - before).max() < 1e-9 * before[0] + 2 * way
 
 
-def test_missingResetterIsRefused():
+def test_orderIsCheckedAgain():
+    """As engines change in the middle of a run, and as one is disabled or enabled; a missing resetter is refused."""
     blow('CIFN')
     with pytest.raises(ValueError, match='no ForceResetter.*' + kOrder):
         O.step()
-
-
-def test_orderIsCheckedAgain():
-    """When engines change in the middle of a run, and when one is disabled or enabled."""
+    O.reset()
     blow('RCIFN')
     steps(2)
     O.engines = [O.engines[i] for i in (0, 3, 1, 2, 4)]

@@ -7,19 +7,16 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import blow, fe, finder, kineticEnergy, ready, reloaded, run
+from fe_scene import blow, fe, finder, kineticEnergy, O, ready, reloaded, run, throwBall
 from yade import utils
 from yade import wrapper as w
 
-O = builtins.O
 G = 9.81
 
 
-def ball(place, radius=.1, velocity=(0, 0), young=1e7, density=1000, angle=.3, spin=0):
-    sphere = utils.sphere((*place, 0), radius, material=w.FrictMat(young=young, density=density, frictionAngle=angle))
-    sphere.state.vel, sphere.state.angVel = (*velocity, 0), (0, 0, spin)
-    sphere.state.blockedDOFs = 'zXY'
-    return sphere
+def ball(place, radius=.1, velocity=(0, 0), young=1e7, density=1000, angle=.3, **more):
+    """A sphere's body in the scene."""
+    return throwBall(place, radius, velocity, w.FrictMat(young=young, density=density, frictionAngle=angle), **more)
 
 
 def block(solver, **settings):
@@ -41,7 +38,7 @@ def falling(damping=0, factor=.1, name='LebesgueCollider', **settings):
     solver = fe(gravity=(0, -G))
     block(solver)
     for i, x in enumerate((.2, .45, .8)):
-        O.bodies.append(ball((x, .65 + .3 * i), velocity=(.5, -2), spin=4 * i - 4, **settings))
+        ball((x, .65 + .3 * i), velocity=(.5, -2), spin=4 * i - 4, **settings)
     run(solver, finder(name), spheres=True, factor=factor)
     O.engines[-1].gravity, O.engines[-1].damping = (0, -G, 0), damping
     return solver
@@ -62,10 +59,10 @@ def test_spheresThatFallGiveNoMessage(damping, angle):
 def test_clumpAndBlockedSpheresGiveNoMessage():
     solver = fe(gravity=(0, -G))
     block(solver)
-    clump, _ = O.bodies.appendClumped([ball((.3, .65)), ball((.42, .7)), ball((.3, .8))])
+    members = [ball(place).id for place in ((.3, .65), (.42, .7), (.3, .8))]
+    clump = O.bodies.clump(members)
     O.bodies[clump].state.vel, O.bodies[clump].state.blockedDOFs = (1, -3, 0), 'zXY'
-    pusher = O.bodies[O.bodies.append(ball((.8, .602), velocity=(.1, -.05)))]
-    pusher.state.blockedDOFs = 'xyzXYZ'
+    ball((.8, .602), velocity=(.1, -.05), blocked='xyzXYZ')
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.1)
     O.engines[-1].gravity = (0, -G, 0)
     off, messages = drift(solver, int(.3 / O.dt))
@@ -103,7 +100,7 @@ def test_shorterStepIsAdvisedOnlyWhereItHelps(smooth):
                                    frictionAngle=.4, label='p'), linearViscosity=.06)
         solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .04)), size=.0125, material='p', thickness=.04, smooth=smooth,
                           fixed=lambda x, y: x < 1e-9 or x > .5 - 1e-9)
-        O.bodies.append(ball((.45, .0561), .016, (1, -15), 1e8, 7800, .4))
+        ball((.45, .0561), .016, (1, -15), 1e8, 7800, .4)
         ready(solver, factor, spheres=True)
         O.run(int(.02 / O.dt), True)
         created.append(max(0., solver.energy['scene'] - solver.energy['total']))
@@ -116,8 +113,7 @@ def test_createdEnergyIsThatOfTheBodies():
     """The number in `scene` is the kinetic energy that the sphere and the bodies have got from nothing."""
     solver = fe()
     block(solver, fixed=None)
-    sphere = ball((.44, .51), .0101, velocity=(0, -1), young=1e9, density=300)
-    O.bodies.append(sphere)
+    sphere = ball((.44, .51), .0101, (0, -1), 1e9, 300)
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.8)
     before = kineticEnergy(sphere)
     O.run(int(.002 / O.dt), True)
@@ -182,11 +178,8 @@ def test_overlapIsReportedOncePerDoubling(capfd, tmp_path):
 
 
 def test_untouchedBodyGivesNoMessage():
-    material = w.FEMat(young=210e9, poisson=.3, density=7800)
-    O.materials.append(material)
-    solver = w.FESolver()
-    nodes, triangles = yadefrag.rectangleMesh((.3, .3), (1, 1), 7, 7)
-    solver.addTriangles(nodes, triangles, material=material)
+    solver = fe(w.FEMat(young=210e9, poisson=.3, density=7800, label='m'))
+    solver.addMesh(yadefrag.rectangleMesh((.3, .3), (1, 1), 7, 7), 'm')
     run(solver, finder('LebesgueCollider'))
     O.run(7000, True)
     assert solver.energy['total'] > 0 and solver.warnings == []
@@ -207,10 +200,6 @@ def test_bodiesWithoutTheirEngineAreReported():
     O.engines, O.dt = [w.ForceResetter()], 1e-6
     with pytest.warns(UserWarning, match='O.engines has no FESolver, so that nothing moves its bodies'):
         yadefrag.runSteps(1)
-    O.reset()
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     ready(solver, .5)
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         yadefrag.runSteps(1)

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, reloaded, run, steps
+from fe_scene import fe, O, reloaded, run, steps
 from yade import utils
 from yade import wrapper as w
 from yadefrag import engines, rectangle, rectangleMesh
 
-O = builtins.O
 CENTRE = np.array([.3, .2])
 
 

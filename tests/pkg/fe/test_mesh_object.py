@@ -1,5 +1,4 @@
 """Mesh: every form that addMesh accepts, the bits of its bodies, and what a script may do with it; addPolygon's meshes."""
-import builtins
 import copy
 import math
 import pickle
@@ -9,12 +8,11 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import STEEL, brittle
+from fe_impact import brittle, O, STEEL
 from outline_files import contour, offLine
 from yadefrag import Mesh, polygonMesh, rectangle, rectangleMesh, ring
 from yade import wrapper as w
 
-O = builtins.O
 kSquare = rectangle((0, 0), (1, 1))
 kJoints = [((.2, .2), (.8, .7)), ((.1, .9), (.9, .1)), ((.5, -1), (.5, .3))]
 
@@ -130,8 +128,7 @@ def test_messagesOfAPolygonsMesh():
     with pytest.warns(UserWarning, match=r'polygonMesh: of the joints, \d+ ends'):
         assert polygonMesh(kSquare, size=.2, joints=near).joined[0] > 0
     step = [(0, 0), (.5, 0), (.501, 0), (1, 0), (1, 1), (0, 1)]
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         mesh = polygonMesh(step, size=.1)
     with pytest.warns(UserWarning, match=r'addMesh: .*simplify=0.03 reduces that to'):
         fe.addMesh(mesh, 'm')
@@ -155,8 +152,7 @@ def added(**wanted):
     """A solver with one body."""
     O.bodies.clear()
     solver = w.FESolver()
-    solver.addPolygon(**{**dict(outline=kSquare, size=.02, material=brittle(fractureEnergy=0)),
-                         **wanted})
+    solver.addPolygon(**{**dict(outline=kSquare, size=.02, material=brittle(fractureEnergy=0)), **wanted})
     return solver
 
 
@@ -173,43 +169,30 @@ def test_whatCracksGetsAnIrregularMesh():
 
 
 def test_seedChoosesTheMesh():
-    assert same(added(meshSeed=7), added(meshSeed=7))
-    assert not same(added(meshSeed=7), added(meshSeed=8))
+    assert same(added(meshSeed=7), added(meshSeed=7)) and not same(added(meshSeed=7), added(meshSeed=8))
     assert same(added(mesh='regular', meshSeed=7), added(mesh='regular', meshSeed=8))
 
 
-def test_qualityOfTheDefaultMesh():
-    """As wanted of a square of 100 × 100 edges; here turned by 20°."""
+def test_quality():
+    """Of the default mesh as wanted of a square of 100 × 100 edges, here turned by 20°; of a regular one; of the
+    stress-free mesh; of one of two bodies."""
     c, s = math.cos(math.radians(20)), math.sin(math.radians(20))
-    outline = [(c * x - s * y, s * x + c * y) for x, y in kSquare]
-    quality = added(outline=outline, size=.01).meshQuality()
+    quality = added(outline=[(c * x - s * y, s * x + c * y) for x, y in kSquare], size=.01).meshQuality()
     assert math.degrees(quality['minAngle']) > 30
     assert quality['timeStepRatio'] > .6
     assert abs(quality['size'] - .01) < .0007
-
-
-def test_qualityOfARegularMesh():
-    nodes, triangles = yadefrag.rectangleMesh((0, 0), (1, 1), 20, 20)
-    solver = w.FESolver()
-    solver.addTriangles(nodes, triangles, material=elastic())
-    quality = solver.meshQuality(0)
-    assert quality['numTriangles'] == 800
-    assert quality['shortestEdge'] == pytest.approx(.05)
+    O.bodies.clear()
+    regular = w.FESolver()
+    regular.addMesh(yadefrag.rectangleMesh((0, 0), (1, 1), 20, 20), elastic())
+    quality = regular.meshQuality(0)
+    assert quality['numTriangles'] == 800 and quality['shortestEdge'] == pytest.approx(.05)
     assert quality['minAngle'] == pytest.approx(math.pi / 4)
-
-
-def test_qualityIsOfTheStressFreeMesh():
-    still = added().meshQuality()
-    moved = added(displacement=lambda x, y: (.3 * x, 0)).meshQuality()
-    assert still == moved
-
-
-def test_qualityOfOneOfTwoBodies():
-    solver = added()
-    solver.addPolygon(yadefrag.rectangle((2, 0), (3, 1)), size=.1, material=elastic())
-    assert solver.meshQuality(1)['numTriangles'] < solver.meshQuality(0)['numTriangles']
-    solver.removeBody(0)
-    assert solver.meshQuality()['numTriangles'] == solver.meshQuality(1)['numTriangles']
+    assert added().meshQuality() == added(displacement=lambda x, y: (.3 * x, 0)).meshQuality()
+    both = added()
+    both.addPolygon(yadefrag.rectangle((2, 0), (3, 1)), size=.1, material=elastic())
+    assert both.meshQuality(1)['numTriangles'] < both.meshQuality(0)['numTriangles']
+    both.removeBody(0)
+    assert both.meshQuality()['numTriangles'] == both.meshQuality(1)['numTriangles']
 
 
 def test_sizeByPlace():
@@ -224,19 +207,15 @@ def test_sizeByPlace():
     assert .5 < ratio.min() and ratio.max() < 2 and abs(ratio.mean() - 1) < .1
     assert math.degrees(solver.minAngle) > 28
     assert same(solver, added(size=size))
-
-
-def test_functionThatIsConstant():
-    assert len(added(size=lambda x, y: .05).triangles) == \
-        pytest.approx(len(added(size=.05).triangles), rel=.05)
+    constant = len(added(size=lambda x, y: .05).triangles)
+    assert constant == pytest.approx(len(added(size=.05).triangles), rel=.05)
 
 
 def test_shortEdgeOfTheOutlineIsReported():
     outline = [*kSquare[:2], (1, .5), (.9999, .5005), *kSquare[2:]]
     with pytest.warns(UserWarning, match=r'critical time step is [\d.]+ times shorter .* at \('):
         added(outline=outline)
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         added()
         added(outline=yadefrag.circle((0, 0), .5, 100))
 
@@ -249,8 +228,7 @@ def test_aContourOfPixelsFromAFileIsSimplified(tmp_path):
     wanted = dict(outline=outline, holes=holes, size=9., material=elastic())
     with pytest.warns(UserWarning, match=r'addPolygon: the critical time step .* simplify=2.7 reduces'):
         rough = added(**wanted)
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         simple = added(**wanted, simplify=1.5)
     assert len(simple.surfaces[0]) < len(rough.surfaces[0]) / 6
     assert simple.criticalTimeStep() > 3 * rough.criticalTimeStep()

@@ -1,5 +1,4 @@
 """Bonds of bodies, whose nodes may differ along their common sides, from Python."""
-import builtins
 import math
 import os
 import warnings
@@ -9,12 +8,10 @@ import pytest
 
 import outline_files as touching
 import yadefrag
-from fe_impact import engines
+from fe_impact import engines, O
 from fe_scene import momentum
 from yade import utils
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def solverOf(**given):
@@ -102,8 +99,7 @@ def test_aMeshFromAFileIsBondedToAPolygon(folder):
     solver = solverOf()
     solver.addTriangles(mesh.nodes, mesh.triangles, 'm', velocity=lambda x, y: (x - 1, 0))
     solver.addPolygon(yadefrag.rectangle((1, .2), (2, 1.3)), size=.07, material='m', velocity=lambda x, y: (x - 1, 0))
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         assert solver.bond(0, 1, 1e8, 1e7) >= 8
     engines(solver, factor=.5)
     energy = solver.energy['total']
@@ -131,8 +127,7 @@ def test_bondedBodiesCarryLoadAsOneBodyDoes(kind):
     for k, outline in enumerate(outlines):
         solver.addPolygon(outline, size=sizes[k % len(sizes)], material='m', velocity=lambda x, y: (x - wide / 2, 0))
     before = solver.criticalTimeStep()
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         sides = solver.bondAll(tolerance, 1e8, 1e7)
     assert sides > (20 if kind == 'grains' else 40) and solver.criticalTimeStep() > .3 * before
     assert len(solver.fragments()) == 1
@@ -158,8 +153,7 @@ def test_bondsOnePairAfterTheOtherAreAsComplete(seed):
     solver = solverOf()
     for k, outline in enumerate(wall):
         solver.addPolygon(outline, size=(.03, .019, .024)[k % 3], material='m')
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore')  # corners that are joined
+    with warnings.catch_warnings(action='ignore'):  # corners that are joined
         for a in range(len(wall)):
             for b in range(a):
                 try:
@@ -174,13 +168,11 @@ def test_bondsOnePairAfterTheOtherAreAsComplete(seed):
 def test_digitisedMasonryIsBondedWithoutSnapping():
     wall = touching.digitised(touching.bricks(3, 3), 5e-4, 1)
     solver = solverOf()
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore')  # of vertices that were moved off overlaps
+    with warnings.catch_warnings(action='ignore'):  # of vertices that were moved off overlaps
         for k, outline in enumerate(wall):
             solver.addPolygon(outline, size=(.03, .022)[k % 2], material='m')
     mass = solver.masses.sum()
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         assert solver.bondAll(.003, 1e6, 1e4) > 60
     assert solver.masses.sum() == pytest.approx(mass, rel=.02)
     assert len(solver.fragments()) == 1

@@ -1,16 +1,14 @@
 """Fragments below FESolver.minFragmentArea: taken out of the scene, and booked. Spheres that hit what cracks:
 energy and momenta of both worlds, computed apart from the engine."""
-import builtins
-
+import meshio
 import numpy as np
 import pytest
 import yadefrag
 from yade import utils, wrapper as w
 from yadefrag.plots.axes import fragmentColours
-from fe_impact import impact, requireBodiesAreEntries, steps
+from fe_impact import impact, O, requireBodiesAreEntries, steps
 from fe_scene import fe, kineticEnergy, momentum, ready, throwBall
 
-O = builtins.O
 kArea = 3e-6  # m²: about two triangles
 
 
@@ -64,8 +62,7 @@ def test_momentumOfAFreeBlock():
     steps(250)
     gone = solver.dropped
     assert gone['count'] > 3
-    assert np.allclose(momentum(solver)[0] + gone['momentum'], start, rtol=0,
-                       atol=1e-11 * np.linalg.norm(start))
+    assert np.allclose(momentum(solver)[0] + gone['momentum'], start, rtol=0, atol=1e-11 * np.linalg.norm(start))
 
 
 def test_energyIsTracked():
@@ -80,7 +77,6 @@ def test_energyIsTracked():
 
 
 def test_picturesLeaveThemOut(folder):
-    meshio = pytest.importorskip('meshio')
     solver = dropping()
     steps(220)
     assert solver.dropped['count'] > 0

@@ -1,18 +1,15 @@
 """Brittle bodies in YADE: faces of cracks as bodies, spheres on them, fragments, records."""
-import builtins
 import os
 
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
-from fe_impact import brittle, engines, heapSpheres, impact, requireBodiesAreEntries, steps
+from fe_impact import brittle, engines, heapSpheres, impact, O, requireBodiesAreEntries, steps
+from fe_scene import newBall
 from yadefrag.plots import pictures
 from yadefrag.plots.axes import fragmentColours
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def test_maxCracks():
@@ -50,8 +47,7 @@ def test_facesOfCracksAreBodies(smooth):
     assert solver.energy['total'] == pytest.approx(total, rel=.01)
     of = solver.fragmentOf
     assert np.array_equal(np.bincount(of), [p['triangles'] for p in parts])
-    assert all(len(set(of[(solver.triangles == n).any(1)])) == 1 
-               for n in range(0, len(solver.masses), 7))
+    assert all(len(set(of[(solver.triangles == n).any(1)])) == 1 for n in range(0, len(solver.masses), 7))
 
 
 def test_newFacesTouchEachOther():
@@ -86,7 +82,7 @@ def test_spheresTouchNewFaces(finder):
     middle = np.array(widest.state.pos)[:2]
     travel = np.array(widest.shape.end - widest.shape.start)[:2]
     outward = np.array([travel[1], -travel[0]]) / np.linalg.norm(travel)
-    ball = chain.ball(middle + outward * .9e-4, 1e-4, O.materials['b'])
+    ball = newBall(middle + outward * .9e-4, 1e-4, O.materials['b'])
     ball.state.blockedDOFs = 'xyzXYZ'
     O.bodies.append(ball)
     O.step()
@@ -171,8 +167,7 @@ def test_heldPartsCountAsOne():
     """A bar in tension: two parts as soon as nodes split, but one until the crack has lost its cohesion."""
     solver = w.FESolver()
     nodes, triangles = yadefrag.rectangleMesh((-.01, 0), (.01, .01), 2, 1)
-    solver.addTriangles(nodes, triangles, material=brittle(fractureEnergy=500),
-                        velocity=lambda x, y: (2 * x / .01, 0),
+    solver.addTriangles(nodes, triangles, material=brittle(fractureEnergy=500), velocity=lambda x, y: (2 * x / .01, 0),
                         fixed=lambda x, y: 'x' if abs(x) > .009 else False)
     O.engines = [solver]
     O.dt = .5 * solver.criticalTimeStep()

@@ -1,5 +1,4 @@
 """Bodies that touch, with rounded coordinates; bonds of all neighbours; joints that nearly meet."""
-import builtins
 import re
 import warnings
 
@@ -8,11 +7,10 @@ import pytest
 
 import outline_files as touching
 import yadefrag
-from fe_impact import brittle, engines
+from fe_impact import brittle, engines, O
+from fe_scene import heard
 from outline_files import area
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def solverOf(material='m'):
@@ -25,11 +23,10 @@ def solverOf(material='m'):
 def addAll(outlines, size, **given):
     """(solver, messages)."""
     solver = solverOf()
-    with warnings.catch_warnings(record=True) as seen:
-        warnings.simplefilter('always')
+    with heard() as texts:
         for outline in outlines:
             solver.addPolygon(outline, size=size, material='m', **given)
-    return solver, [str(one.message) for one in seen]
+    return solver, texts
 
 
 # --- outlines that overlap by rounding
@@ -161,8 +158,7 @@ def test_allNeighboursAreBonded(seed):
     assert report['moved'] > 0 and report['inserted'] > 10 and 0 < report['farthest'] < .004
     solver, _ = addAll(shapes, .04, snap=0)
     assert solver.masses.sum() == pytest.approx(2000 * exact, rel=.01)
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         sides = solver.bondAll(.004, 1e7, 5e4)
     assert sides > 40 and len(solver.fragments(held=True)) == 1
     with pytest.raises(ValueError, match='bondAll: no sides that are not bonded yet'):
@@ -199,11 +195,9 @@ def test_aCoarserBodyIsGivenTheNodesOfAFinerOne():
 
 def plateOf(joints, size=.05, **given):
     solver = solverOf()
-    with warnings.catch_warnings(record=True) as seen:
-        warnings.simplefilter('always')
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=size, material='b', joints=joints,
-                          **given)
-    return solver, [str(one.message) for one in seen]
+    with heard() as texts:
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=size, material='b', joints=joints, **given)
+    return solver, texts
 
 
 @pytest.mark.parametrize('count', [10, 60, 150])
@@ -273,12 +267,10 @@ def test_meshesDoNotDependOnTheUnit(irregular):
     plate = yadefrag.rectangle((0, 0), (.04, .02))
     hole = yadefrag.circle((.02, .01), .004, 20)
     for outline, holes, size, joints in ((plate, [], .001, ()), (plate, [hole], .0007, ()),
-                                         (yadefrag.circle((.3, .2), .05), [], .003, ()),
-                                         (blob, [], .007, ()),
+                                         (yadefrag.circle((.3, .2), .05), [], .003, ()), (blob, [], .007, ()),
                                          (plate, [], .001, [((.003, .004), (.031, .0171))])):
         first = meshOf(outline, holes, size, 1, 0, irregular, joints)
         for scale, shift in ((1000, 0), (1e-3, 0), (100, 0), (1 / .0254, 0), (2.**-40, 0), (1000, 250)):
             again = meshOf(outline, holes, size, scale, shift, irregular, joints)
             assert np.array_equal(again.triangles, first.triangles), (scale, shift)
-            assert again.nodes == pytest.approx(scale * first.nodes + shift, rel=1e-9,
-                                                   abs=1e-9 * scale * size)
+            assert again.nodes == pytest.approx(scale * first.nodes + shift, rel=1e-9, abs=1e-9 * scale * size)

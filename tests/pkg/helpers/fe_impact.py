@@ -4,10 +4,9 @@ import builtins
 
 import numpy as np
 
-import fe_chain as chain
 import fe_scene
 import yadefrag
-from fe_scene import steps  # noqa: F401  for tests
+from fe_scene import newBall, steps  # noqa: F401  for tests
 from yade import wrapper as w
 
 O = builtins.O
@@ -61,7 +60,7 @@ def wallAndClump(young=2e9, fixed=lambda x, y: abs(y) > .5 - 1e-9):
     O.materials.append(w.FrictMat(young=young, poisson=.3, density=2400, frictionAngle=.3, label='s'))
     solver = w.FESolver()
     solver.addPolygon(yadefrag.rectangle((0, -.5), (.1, .5)), size=.02, material='wall', fixed=fixed)
-    number, _ = O.bodies.appendClumped([chain.ball(at, .05, O.materials['s'])
+    number, _ = O.bodies.appendClumped([newBall(at, .05, O.materials['s'])
                                         for at in ((-.051, .01), (-.09, .07), (-.09, -.05))])
     clump = O.bodies[number]
     clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
@@ -72,7 +71,7 @@ def wallAndClump(young=2e9, fixed=lambda x, y: abs(y) > .5 - 1e-9):
 def heapSpheres():
     """Six spheres that fall on the block, beside the disc; they take half the time step."""
     for i in range(6):
-        ball = chain.ball((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
+        ball = newBall((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
         ball.state.blockedDOFs = 'zXY'
         ball.state.vel = (0, -5, 0)
         O.bodies.append(ball)
@@ -93,8 +92,7 @@ def requireBodiesAreEntries(solver):
     pieces = sorted((b.shape for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)),
                     key=lambda shape: shape.entry)
     entries = [shape.entry for shape in pieces]
-    assert entries == (list(range(len(pieces))) if solver.dropped['count'] == 0
-                       else sorted(set(entries)))
+    assert entries == (list(range(len(pieces))) if solver.dropped['count'] == 0 else sorted(set(entries)))
     starts, ends = {}, {}
     for shape in pieces:
         starts[tuple(shape.start)] = starts.get(tuple(shape.start), 0) + 1

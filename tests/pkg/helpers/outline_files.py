@@ -1,5 +1,5 @@
 """What the tests of readOutline and readMesh share: files, and how far loops are from curves."""
-import os
+import pathlib
 import warnings
 
 import numpy as np
@@ -13,10 +13,14 @@ kSquare = [(0, 0), (4, 0), (4, 4), (0, 4)]
 
 
 def written(folder, name, text):
-    file = os.path.join(folder, name)
-    with open(file, 'w', encoding='utf-8') as out:
-        out.write(text)
-    return file
+    file = pathlib.Path(folder, name)
+    file.write_text(text, encoding='utf-8')
+    return str(file)
+
+
+def lists(groups):
+    """{name: list of numbers} of the groups of a mesh."""
+    return {name: list(of) for name, of in groups.items()}
 
 
 def isOneSentence(error):
@@ -32,8 +36,7 @@ def refusesMesh(folder, name, text, words):
 
 
 def svg(folder, body, page='viewBox="0 0 100 50"'):
-    return written(folder, 'a.svg', '<svg xmlns="http://www.w3.org/2000/svg" %s>%s</svg>' %
-                   (page, body))
+    return written(folder, 'a.svg', '<svg xmlns="http://www.w3.org/2000/svg" %s>%s</svg>' % (page, body))
 
 
 def area(loop):

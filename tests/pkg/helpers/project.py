@@ -15,6 +15,12 @@ def yadeCommand():
     return [getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0], '-n', '-x']
 
 
+def inYade(script, *arguments, timeout=300, options=(), **more):
+    """The finished process of a script in a yade of its own; its stdout has stderr, too."""
+    return subprocess.run([*yadeCommand(), *options, str(script), *arguments], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, timeout=timeout, **more)
+
+
 kMark = 'YADEFRAG_MPI_RUN'
 # Processes that share two cores, as root in a container.
 kMpi = dict(OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMP_NUM_THREADS='1',
@@ -138,5 +144,4 @@ def figures(name, folder, *options):
     assert done.returncode == 0, done.stdout[-1500:] + done.stderr[-1500:]
     assert os.path.getsize(os.path.join(folder, name + '.png')) > 10000
     lines = [line.split(': ', 1) for line in done.stdout.splitlines() if ': ' in line]
-    return {what: [float(n) for n in re.findall(r'(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?', rest)]
-            for what, rest in lines}
+    return {what: [float(n) for n in re.findall(r'(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?', rest)] for what, rest in lines}

@@ -39,8 +39,7 @@ def loop(name='InteractionLoop'):
     """An interaction loop for spheres, facets, boxes and walls; contacts go when they open."""
     return getattr(w, name)(
         [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-         w.Ig2_Wall_Sphere_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+         w.Ig2_Wall_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
 
 
 def setEngines(collider, *more, newton=True, interactionLoop=None):
@@ -102,8 +101,7 @@ def allPairs():
 
 
 def spherePairs(pairs):
-    return {k: v for k, v in pairs.items()
-            if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
+    return {k: v for k, v in pairs.items() if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
 
 
 def stepAndCheck(avoid=0, mayMiss=(), steps=1):
@@ -136,8 +134,7 @@ def compare(centres, radii, avoid=0, mayMiss=()):
         f'{sorted(missed)[:5]}'
     assert not extra, f'step {O.iter}: contacts that are none: {sorted(extra)[:5]}'
     if hSize is not None:
-        wrong = {p: (found[p], possible[p]) for p in found if p in possible
-                 and found[p] != possible[p]}
+        wrong = {p: (found[p], possible[p]) for p in found if p in possible and found[p] != possible[p]}
         assert not wrong, f'step {O.iter}: cellDist (found, right): {list(wrong.items())[:3]}'
     return len(sure)
 

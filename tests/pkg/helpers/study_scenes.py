@@ -12,24 +12,24 @@ from yadefrag import rectangleMesh
 SIDE, SPEED = 1., 3.  # m, m/s
 
 
-def block(choices):
-    """Two triangles (or more, with a smaller size) that fly freely."""
+def body(choices, mesh, **more):
+    """The solver with one body, ready to run."""
     fe = choices.solver()
-    cells = round(SIDE / choices.size(SIDE))
     material = choices.material(young=1e6, poisson=.2, density=1000, frictionAngle=0)
-    fe.addTriangles(*rectangleMesh((0, 0), (SIDE, SIDE), cells, cells), material=material,
-                    velocity=(SPEED, 0))
+    fe.addTriangles(*mesh, material=material, **more)
     choices.engines(fe)
     return fe
+
+
+def block(choices):
+    """Two triangles (or more, with a smaller size) that fly freely."""
+    cells = round(SIDE / choices.size(SIDE))
+    return body(choices, rectangleMesh((0, 0), (SIDE, SIDE), cells, cells), velocity=(SPEED, 0))
 
 
 def rest(choices):
     """A block that rounding alone shakes."""
-    fe = choices.solver()
-    material = choices.material(young=1e6, poisson=.2, density=1000, frictionAngle=0)
-    fe.addTriangles(*rectangleMesh((.3, .3), (1, 1), 7, 7), material=material)
-    choices.engines(fe)
-    return fe
+    return body(choices, rectangleMesh((.3, .3), (1, 1), 7, 7))
 
 
 def place0(fe):
@@ -53,22 +53,18 @@ def seen(_, ways):
 
 def whole(fe):
     """Numbers that depend on the choices."""
-    return [fe.passes, fe.contactTolerance, fe.halo, fe.linearViscosity,
-            fe.quadraticViscosity, O.materials[0].planeStress, O.numThreads,
-            len(O.engines), len(fe.triangles)]
+    return [fe.passes, fe.contactTolerance, fe.halo, fe.linearViscosity, fe.quadraticViscosity,
+            O.materials[0].planeStress, O.numThreads, len(O.engines), len(fe.triangles)]
 
 
 def spheres(choices):
     """A sphere bounces between two others; a stiffer one blows up with a step this long."""
     O.materials.append(w.FrictMat(young=choices.get('young', 1e6), density=1000, poisson=.3))
-    O.bodies.append([utils.sphere((0, 0, 0), .5, fixed=True), utils.sphere((1.95, 0, 0), .5,
-                                                                           fixed=True)])
+    O.bodies.append([utils.sphere((0, 0, 0), .5, fixed=True), utils.sphere((1.95, 0, 0), .5, fixed=True)])
     O.bodies.append(utils.sphere((.97, 0, 0), .5))
     O.engines = [w.ForceResetter(), choices.collider([w.Bo1_Sphere_Aabb()]),
-                 w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()],
-                                   [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                                   [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-                 w.NewtonIntegrator(damping=0)]
+                 w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                                   [w.Law2_ScGeom_FrictPhys_CundallStrack()]), w.NewtonIntegrator(damping=0)]
     O.dt = 1e-3
     return O.bodies[2]
 
@@ -88,7 +84,6 @@ def odd(choices):
     if fault == 'crash':
         os.abort()
     if fault == 'sleep':
-        import time
         time.sleep(60)
     if fault == 'step':
         O.dt = 0
@@ -104,8 +99,7 @@ def brittle(choices):
     fe = choices.solver()
     material = choices.material(young=1e9, poisson=.2, density=1000, frictionAngle=0,
                                 tensileStrength=1e6, fractureEnergy=choices.get('energy', 1e6))
-    fe.addTriangles(*rectangleMesh((0, 0), (1, 1), 1, 1), material=material,
-                    smooth=choices.smooth())
+    fe.addTriangles(*rectangleMesh((0, 0), (1, 1), 1, 1), material=material, smooth=choices.smooth())
     choices.engines(fe)
     return material
 

@@ -1,17 +1,16 @@
 """FERecorder, the ready set of engines, and runs that call something every few steps."""
-import builtins
 import csv
 import os
+import pathlib
+import shutil
 import xml.etree.ElementTree as tree
 
 import meshio
 import pytest
 
 import yadefrag
-from fe_scene import fe, ready, solverOfScene, steps
+from fe_scene import fe, O, ready, solverOfScene, steps
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def scene(file, **settings):
@@ -20,9 +19,8 @@ def scene(file, **settings):
     solver.addPolygon(yadefrag.rectangle((-1, -1), (2, 0)), size=.5, material='m', name='floor, low',
                       fixed=lambda x, y: True)
     solver.addPolygon(yadefrag.rectangle((0, .001), (1, 1)), size=.5, material='m', velocity=(0, -1))
-    O.engines = yadefrag.engines(solver, gravity=(0, -9.81)) + [
-        yadefrag.FERecorder(iterPeriod=10, file=file, **settings)]
-    O.dt = .8 * solver.criticalTimeStep()
+    ready(solver, .8, gravity=(0, -9.81))
+    O.engines = O.engines + [yadefrag.FERecorder(iterPeriod=10, file=file, **settings)]
     return solver
 
 
@@ -32,8 +30,13 @@ def table(file):
 
 
 def series(file):
-    return [(float(one.get('timestep')), one.get('file')) for one in
-            tree.parse(file + '.pvd').getroot().iter('DataSet')]
+    sets = tree.parse(file + '.pvd').getroot().iter('DataSet')
+    return [(float(one.get('timestep')), one.get('file')) for one in sets]
+
+
+def told(capfd):
+    """Lines of FERecorder's warnings."""
+    return [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
 
 
 def test_recordsAreTheSolversValues(folder):
@@ -48,8 +51,8 @@ def test_recordsAreTheSolversValues(folder):
     assert [int(row['step']) for row in rows] == [one[0] for one in wanted] == [0, 10, 20, 30, 40]
     for row, (time, picture), (_, when, energy, nodes, force) in zip(rows, pictures, wanted):
         assert float(row['time (s)']) == time == when
-        assert all(float(row['%s (J)' % name]) == energy[name] for name in
-                   ('kinetic', 'strain', 'contact', 'outside', 'total'))
+        assert all(float(row['%s (J)' % name]) == energy[name]
+                   for name in ('kinetic', 'strain', 'contact', 'outside', 'total'))
         assert float(row['reaction y of floor  low (N)']) == force[1] == float(row['reaction y (N)'])
         mesh = meshio.read(os.path.join(folder, picture))
         assert (mesh.points[:, :2] == nodes).all()
@@ -113,8 +116,7 @@ def test_recordsOfBodiesThatComeAndGoStay(folder):
 def test_otherFilesOfThisNameAreReplaced(folder):
     file = folder + '/run'
     for ending in ('.csv', '.pvd'):
-        with open(file + ending, 'w') as old:
-            old.write('something else\n1,2\n')
+        pathlib.Path(file + ending).write_text('something else\n1,2\n')
     scene(file)
     steps(1)
     assert len(table(file)) == len(series(file)) == 1
@@ -125,7 +127,7 @@ def test_aFullDiskIsASentenceAndTheRunGoesOn(small, capfd):
     file = small + '/run'
     scene(file)
     assert yadefrag.runSteps(400) == 400
-    written = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
+    written = told(capfd)
     assert 1 <= len(written) <= 2 and all('No space left on device' in one for one in written)
     # What is there is whole.
     rows, pictures = table(file), series(file)
@@ -140,11 +142,9 @@ def test_aFolderThatGoesIsASentence(folder, capfd):
     os.mkdir(folder + '/deep')
     scene(folder + '/deep/run')
     steps(1)
-    for name in os.listdir(folder + '/deep'):
-        os.remove(folder + '/deep/' + name)
-    os.rmdir(folder + '/deep')
+    shutil.rmtree(folder + '/deep')
     steps(30)
-    written = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
+    written = told(capfd)
     assert len(written) == 2 and all('No such file or directory' in one for one in written)
 
 

@@ -1,29 +1,32 @@
 """Files that cannot be written: reported before a run, with their names, and the old file stays as it was."""
-import builtins
 import os
 import random
 import signal
 import stat
 import time
+from pathlib import Path
 
 import pytest
 
 import study_scenes
 import yadefrag
-from fe_scene import impact
+from fe_scene import impact, O
 from yade import utils
 from yadefrag import files
 from yadefrag.studies import tradeoff_grid
 from yadefrag.studies.tradeoff_table import TradeoffRow
 
-O = builtins.O
 kNowhere = ['/nowhere/run', '/proc/run', '{folder}/file/run']
 
 
 def table():
     return yadefrag.TradeoffTable([
-        TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', k, k, 1 / k, 0, 9, [k], [k])
-        for k in (1, 2, 3)])
+        TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', k, k, 1 / k, 0, 9, [k], [k]) for k in (1, 2, 3)])
+
+
+def fill(name, count):
+    with open(name, 'wb', buffering=0) as rest:
+        rest.write(b'x' * count)
 
 
 def writers(solver):
@@ -37,39 +40,38 @@ def writers(solver):
 def test_anOldFileIsNotLostToAFullDisk(small):
     for ending, write in writers(impact()).items():
         name = small + '/run' + ending
-        with open(name, 'w') as old:
-            old.write('what was there')
-        with open(small + '/rest', 'wb') as rest:
-            rest.write(b'x' * 4096)
+        Path(name).write_text('what was there')
+        fill(small + '/rest', 4096)
         with pytest.raises(OSError, match='No space left') as error:
             write(name)
-        assert error.value.filename == name
-        with open(name) as old:
-            assert old.read() == 'what was there'
+        assert error.value.filename == name and Path(name).read_text() == 'what was there'
         assert sorted(os.listdir(small)) == ['rest', 'run' + ending]
         os.remove(name)
+
+
+def killed(write, seconds):
+    """A process that writes on and on, and is ended after this time."""
+    writer = os.fork()
+    if writer == 0:
+        while True:
+            write()
+    time.sleep(seconds)
+    os.kill(writer, signal.SIGKILL)
+    os.waitpid(writer, 0)
 
 
 def test_aKilledWriterLeavesAWholeFile(folder):
     name, solver, draw = folder + '/run.vtu', impact(), random.Random(1)
     yadefrag.exportVTK(solver, name)
-    with open(name, 'rb') as file:
-        whole = file.read()
+    whole = Path(name).read_bytes()
     for _ in range(20):
-        writer = os.fork()
-        if writer == 0:
-            while True:
-                yadefrag.exportVTK(solver, name)
-        time.sleep(draw.uniform(.002, .05))
-        os.kill(writer, signal.SIGKILL)
-        os.waitpid(writer, 0)
-        with open(name, 'rb') as file:
-            assert file.read() == whole
+        killed(lambda: yadefrag.exportVTK(solver, name), draw.uniform(.002, .05))
+        assert Path(name).read_bytes() == whole
 
 
 @pytest.mark.parametrize('where', kNowhere)
 def test_anUnwritablePathIsNamedBeforeARun(where, folder):
-    open(folder + '/file', 'w').close()
+    Path(folder, 'file').touch()
     solver = impact()
     for ending, write in writers(solver).items():
         name = where.format(folder=folder) + ending
@@ -99,7 +101,7 @@ def test_aDeviceStaysOne():
 
 def test_aLinkStaysOneAndAModeToo(folder):
     real, link = folder + '/real.csv', folder + '/link.csv'
-    open(real, 'w').close()
+    Path(real).touch()
     os.chmod(real, 0o640)
     os.symlink(real, link)
     table().csv(link)
@@ -111,15 +113,13 @@ def test_aLinkStaysOneAndAModeToo(folder):
 def test_noLinkOfATemporaryNameIsFollowed(folder, monkeypatch):
     """Not even one whose name was guessed."""
     victim, name = folder + '/victim', folder + '/t.csv'
-    with open(victim, 'w') as file:
-        file.write('kept')
+    Path(victim).write_text('kept')
     drawn = ['a' * 16, 'b' * 16]
     monkeypatch.setattr(files.secrets, 'token_hex', lambda count: drawn.pop(0))
     os.symlink(victim, folder + '/.%s.part.t.csv' % drawn[0])
     table().csv(name)
     assert drawn == [] and len(yadefrag.TradeoffTable.read(name).rows) == 3
-    with open(victim) as file:
-        assert file.read() == 'kept'
+    assert Path(victim).read_text() == 'kept'
     assert sorted(os.listdir(folder)) == ['.%s.part.t.csv' % ('a' * 16), 't.csv', 'victim']
 
 
@@ -156,42 +156,35 @@ def test_aRecordGrowsByWholeLines(small):
         for _ in range(1000):
             record()
     assert error.value.filename == name
-    with open(name) as lines:
-        text = lines.read()
+    text = Path(name).read_text()
     assert text.endswith('\n') and len({line.count(',') for line in text.splitlines()}) == 1
     yadefrag.plotFracture(name)
 
 
 # --- tradeoff
 
+def traded(duration=1., **more):
+    return yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way, duration=duration, **more)
+
+
 @pytest.mark.parametrize('where', kNowhere)
 def test_tradeoffLooksAtItsFilesFirst(where, folder, monkeypatch):
-    open(folder + '/file', 'w').close()
+    Path(folder, 'file').touch()
     monkeypatch.setattr(tradeoff_grid, '_runAll', lambda *_: pytest.fail('it has run'))
     with pytest.raises(OSError) as error:
-        yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way, duration=1.,
-                          files=where.format(folder=folder))
+        traded(files=where.format(folder=folder))
     assert error.value.filename == where.format(folder=folder) + '.csv'
 
 
 def test_tradeoffReturnsItsTableFromAFullDisk(small, monkeypatch):
     """It was writable before, and is full after the runs."""
-
-    def fill(*_):
-        with open(small + '/rest', 'wb') as rest:
-            rest.write(b'x' * 8192)
-
-    monkeypatch.setattr(tradeoff_grid, '_runAll', fill)
+    monkeypatch.setattr(tradeoff_grid, '_runAll', lambda *_: fill(small + '/rest', 8192))
     with pytest.warns(UserWarning, match='the table could not be written: .*No space left'):
-        found = yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way,
-                                  duration=1., files=small + '/t')
-    assert len(found.rows) == 1
+        assert len(traded(files=small + '/t').rows) == 1
 
 
 def test_aDurationBelowHalfAStepIsRefused():
-    found = yadefrag.tradeoff(study_scenes.block, {'passes': [1]}, study_scenes.way,
-                              duration=1e-12, repeats=1)
-    row, = found.rows
+    row, = traded(duration=1e-12, repeats=1).rows
     assert row.result == 'refused' and 'at most half of the scene\'s step' in row.message
 
 
@@ -200,8 +193,7 @@ def test_aDurationBelowHalfAStepIsRefused():
 @pytest.mark.parametrize('text', ['', '\n', 'step\n', 'a,b\n1,2\n', '\ufeff', '\xff\xfe'])
 def test_aFileOfOtherColumnsIsNoRecord(text, folder):
     name = folder + '/run.csv'
-    with open(name, 'w', encoding='latin-1' if text == '\xff\xfe' else 'utf-8') as file:
-        file.write(text)
+    Path(name).write_text(text, encoding='latin-1' if text == '\xff\xfe' else 'utf-8')
     with pytest.raises(ValueError, match='run.csv has no lines of recordFracture'):
         yadefrag.plotFracture(name)
     with pytest.raises(ValueError, match='does not end with the columns'):
@@ -210,40 +202,27 @@ def test_aFileOfOtherColumnsIsNoRecord(text, folder):
 
 def test_damagedRecordsAndTablesAreRefused(folder):
     name = folder + '/run.csv'
-    yadefrag.recordFracture(impact(), name)
-    with open(name) as file:
-        good = file.read()
-    for bad in (good + '1,2,3\n', good.replace('0.0', 'x'), good.splitlines()[0] + '\n'):
-        with open(name, 'w') as file:
-            file.write(bad)
-        with pytest.raises(ValueError, match='no lines of recordFracture|damaged one'):
-            yadefrag.plotFracture(name)
-    table().csv(name)
-    with open(name) as file:
-        good = file.read()
-    for bad in (good + '1,2,3\n', good.replace('[1]', '[[1]]'), good.replace('ok,1', 'ok,fast')):
-        assert bad != good
-        with open(name, 'w') as file:
-            file.write(bad)
-        with pytest.raises(ValueError, match='has a damaged row'):
-            yadefrag.TradeoffTable.read(name)
+    for write, read, damage, words in (
+            (lambda: yadefrag.recordFracture(impact(), name), yadefrag.plotFracture,
+             lambda good: (good.replace('0.0', 'x'), good.splitlines()[0] + '\n'),
+             'no lines of recordFracture|damaged one'),
+            (lambda: table().csv(name), yadefrag.TradeoffTable.read,
+             lambda good: (good.replace('[1]', '[[1]]'), good.replace('ok,1', 'ok,fast')), 'has a damaged row')):
+        write()
+        good = Path(name).read_text()
+        for bad in (good + '1,2,3\n', *damage(good)):
+            assert bad != good
+            Path(name).write_text(bad)
+            with pytest.raises(ValueError, match=words):
+                read(name)
 
 
 def test_aByteOrderMarkIsSkipped(folder):
-    mark = '\ufeff'.encode()
-    for name, data in (('plate', b'0 0\n1 0\n1 1\n'), ('t.csv', None), ('r.csv', None)):
-        path = folder + '/' + name
-        if name == 't.csv':
-            table().csv(path)
-        elif name == 'r.csv':
-            yadefrag.recordFracture(impact(), path)
-        else:
-            with open(path, 'wb') as file:
-                file.write(data)
-        with open(path, 'rb') as file:
-            data = file.read()
-        with open(path, 'wb') as file:
-            file.write(mark + data)
+    Path(folder, 'plate').write_text('0 0\n1 0\n1 1\n')
+    table().csv(folder + '/t.csv')
+    yadefrag.recordFracture(impact(), folder + '/r.csv')
+    for path in Path(folder).iterdir():
+        path.write_bytes('\ufeff'.encode() + path.read_bytes())
     assert yadefrag.readPolygon(folder + '/plate') == ([(0, 0), (1, 0), (1, 1)], [])
     assert len(yadefrag.TradeoffTable.read(folder + '/t.csv').rows) == 3
     yadefrag.plotFracture(folder + '/r.csv')
@@ -251,13 +230,18 @@ def test_aByteOrderMarkIsSkipped(folder):
 
 # --- YADE's own save
 
+def aSphere(anew=False):
+    if anew:
+        O.reset()
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+
+
 @pytest.mark.parametrize('ending', ['.yade', '.xml', '.yade.gz', '.yade.bz2', '.xml.gz', '.xml.bz2'])
 @pytest.mark.parametrize('where', ['/nowhere/x', '/proc/x', '{folder}/file/x', '{folder}/deep'])
 def test_aSceneThatCannotBeSavedIsReportedFirst(where, ending, folder):
     """YADE alone never ends for compressed files, and does not tell for others of a small scene."""
-    O.reset()
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
-    open(folder + '/file', 'w').close()
+    aSphere(anew=True)
+    Path(folder, 'file').touch()
     os.mkdir(folder + '/deep' + ending)
     name = where.format(folder=folder) + ending
     cause = '.*Is a directory' * ('deep' in where)
@@ -279,15 +263,12 @@ def test_aSaveOnAFullDeviceIsReported():
 
 def test_aSaveOnAFullDiskIsReported(small):
     """Compressed, too, if nothing is left."""
-    O.reset()
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
-    with open(small + '/rest', 'wb', buffering=0) as rest:
-        rest.write(b'x' * 8192)
+    aSphere(anew=True)
+    fill(small + '/rest', 8192)
     for ending in ('.yade', '.yade.gz', '.xml.bz2'):
         with pytest.raises(RuntimeError, match='could not be saved: its file cannot be opened or the disk is full'):
             O.save(small + '/x' + ending)
-    with open(small + '/rest', 'wb', buffering=0) as rest:
-        rest.write(b'x' * 4096)
+    fill(small + '/rest', 4096)
     O.bodies.append([utils.sphere((i, 0, 0), 1) for i in range(20)])  # of 5 KB, for which YADE raises nothing
     with pytest.raises(RuntimeError, match='could not be saved: its file cannot be opened or the disk is full'):
         O.save(small + '/x.yade')
@@ -300,32 +281,25 @@ def test_aSaveThatIsKilledLeavesTheOldFile(ending, folder):
     name = folder + '/x' + ending
     O.save(name)
     for moment in range(8):
-        child = os.fork()
-        if child == 0:
-            while True:
-                O.save(name, quiet=True)
-        time.sleep(.03 + .017 * moment)
-        os.kill(child, signal.SIGKILL)
-        os.waitpid(child, 0)
+        killed(lambda: O.save(name, quiet=True), .03 + .017 * moment)
         O.load(name, quiet=True)
         assert len(O.bodies) == 1500
 
 
 def test_aSaveIsTheFileOfItsName(folder):
     """With its mode and its link; O.filename and O.reload know it."""
-    O.reset()
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    aSphere(anew=True)
     name, link = folder + '/x.yade.gz', folder + '/link.yade.gz'
     O.save(name)
     os.chmod(name, 0o640)
     os.symlink(name, link)
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    aSphere()
     O.save(link)
     assert O.filename == link and os.path.islink(link) and os.stat(name).st_mode & 0o777 == 0o640
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    aSphere()
     O.reload()
     assert len(O.bodies) == 2 and O.filename == link
     O.saveTmp('here')
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    aSphere()
     O.reload()
     assert len(O.bodies) == 2 and sorted(os.listdir(folder)) == ['link.yade.gz', 'x.yade.gz']

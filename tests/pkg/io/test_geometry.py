@@ -1,6 +1,7 @@
 """The outlines that yadefrag.geometry makes and reads; outlines with fewer points, within a distance. Grains: they fill
 their outline, and neighbours share their sides to the last bit."""
 import math
+import pathlib
 import random
 import sys
 
@@ -8,11 +9,10 @@ import numpy as np
 import pytest
 
 import yadefrag
-from outline_files import area, contour, isOneSentence, offLine
+from outline_files import area, contour, isOneSentence, offLine, written
 from yadefrag import _yadefrag
 from yadefrag.fe import geometry
-from yadefrag.fe.geometry import simplified
-from yadefrag.fe.grains import grainJoints, voronoi
+from yadefrag.fe.geometry import grainJoints, simplified, voronoi
 from yadefrag.io import outlines
 
 kAngle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
@@ -20,19 +20,14 @@ kPlate = geometry.rectangle((0, 0), (2, 2))
 kDisc = geometry.circle((1, 1), 1, 40)
 
 
-def test_rectangleIsCounterClockwise():
+def test_rectangleCircleAndRing():
+    """Counter-clockwise; a circle has its points on it, a ring is two of them."""
     assert geometry.rectangle((0, 1), (2, 4)) == [(0, 1), (2, 1), (2, 4), (0, 4)]
-
-
-def test_circleHasItsPointsOnIt():
     loop = geometry.circle((1, 2), 3)
     assert len(loop) == 64 and loop[0] == (4, 2)
     assert all(math.isclose(math.dist(p, (1, 2)), 3, rel_tol=1e-15) for p in loop)
     assert area(loop) == pytest.approx(math.pi * 9 * (1 - .0016), rel=2e-5)
     assert len(geometry.circle((0, 0), 1, 5)) == 5
-
-
-def test_ringIsTwoCircles():
     outline, holes = geometry.ring((0, 0), .8, 1, 12)
     assert outline == geometry.circle((0, 0), 1, 12)
     assert holes == [geometry.circle((0, 0), .8, 12)]
@@ -69,15 +64,12 @@ def test_badArgumentsAreNamed(call, words):
     with pytest.raises(ValueError) as error:
         call()
     assert isOneSentence(error)
-    for word in words:
-        assert word in str(error.value)
+    assert all(word in str(error.value) for word in words)
 
 
 def test_polygonFileIsRead(folder):
-    path = folder + '/plate.txt'
-    with open(path, 'w', encoding='utf-8') as file:
-        file.write('# a plate\n\n0 0  # corner\n4 0\n# half way\n4 3\n\n\n1 1\n1 2\n2e0 1\n\n')
-    outline, holes = outlines.readPolygon(path)
+    text = '# a plate\n\n0 0  # corner\n4 0\n# half way\n4 3\n\n\n1 1\n1 2\n2e0 1\n\n'
+    outline, holes = outlines.readPolygon(written(folder, 'plate.txt', text))
     assert outline == [(0, 0), (4, 0), (4, 3)]
     assert holes == [[(1, 1), (1, 2), (2, 1)]]
 
@@ -88,13 +80,11 @@ def test_polygonFileIsRead(folder):
     ('0 0\n1e999 0\n', 'line 2'), ('0 0\n1 0x\n', 'line 2'), ('\udcff\udc80\n', 'line 1'),
 ])
 def test_badPolygonFileNamesTheLine(folder, text, line):
-    path = folder + '/bad.txt'
-    with open(path, 'wb') as file:
-        file.write(text.encode('utf-8', 'surrogateescape'))
+    path = pathlib.Path(folder, 'bad.txt')
+    path.write_text(text, encoding='utf-8', errors='surrogateescape')
     with pytest.raises(ValueError) as error:
         outlines.readPolygon(path)
-    assert path in str(error.value) and line in str(error.value)
-    assert str(error.value).endswith('.')
+    assert str(path) in str(error.value) and line in str(error.value) and str(error.value).endswith('.')
 
 
 def square(x, y, angle, side):
@@ -131,6 +121,8 @@ def test_contoursOfPixels():
     assert shareKept(kPixelDisc, 1) < .1 and shareKept(kPixelDisc, 2) < .05 and shareKept(kPixelDisc, .3) < 1
     assert shareKept(kPixelSquare, 1.5) < .02
     assert [len(loop) for loop in fewer(kPixelSquare, 1.5)] == [4, 4] and len(fewer(kPixelSquare, 1e-9)[1]) == 4
+    rough, even = (yadefrag.polygonMesh(kPixelDisc[0], kPixelDisc[1:], size=8, simplify=one) for one in (None, 1))
+    assert len(even.triangles) < len(rough.triangles) / 4
 
 
 def test_anyScale():
@@ -142,37 +134,26 @@ def test_anyScale():
             assert all(np.array_equal(one, other * scale) for one, other in zip(found, wanted))
 
 
-def test_holesStayInside():
-    """A thin wall between a wavy outline and a hole: with the tolerance alone they would cross."""
+def test_thinWallsDoNotCross():
+    """Between a wavy outline and a hole; walls of one pixel between round holes: with the tolerance alone they would."""
     outline = [(i, 0 if i % 2 == 0 else -.8) for i in range(40)] + [(39, 20), (0, 20)]
     hole = [(i - .01, .1 if i % 2 == 0 else -.7) for i in range(39, 0, -1)] + [(.3, 10), (38, 10)]
     shareKept([np.array(outline, dtype=float), np.array(hole[::-1])], 1)
-
-
-def test_stonesInMortar():
-    """Walls of one pixel between round holes, of which the simplified ones would cross."""
     places = [(x, y) for x in range(12, 120, 21) for y in range(12, 120, 21)]
     loops = contour(130, lambda x, y: all(math.hypot(x - a, y - b) > 10.1 for a, b in places))
     assert len(loops) == 37 and shareKept(loops, 2.4) < .25
 
 
-def test_straightCornersBesideSmoothOnesStay():
+def test_intendedCornersStay():
+    """Straight ones beside smooth ones."""
     circle = np.array(yadefrag.circle((0, 0), 1, 400))
     flags = np.ones(400, dtype=bool)
     flags[[13, 14]] = False
     outline, _, stay = simplified(circle, [], .01, flags)
     assert len(outline) < 40 and len(stay) == len(outline)
     assert {tuple(circle[i]) for i in (0, 13, 14)} <= set(map(tuple, outline)) and (~stay).sum() == 2
-
-
-def test_cornersBetweenLongEdgesStay():
-    outline = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=float)
-    assert np.array_equal(fewer([outline], .2)[0], outline)
-
-
-def test_simplifiedContourMeshesAtItsSize():
-    rough, even = (yadefrag.polygonMesh(kPixelDisc[0], kPixelDisc[1:], size=8, simplify=one) for one in (None, 1))
-    assert len(even.triangles) < len(rough.triangles) / 4
+    # So do those between long edges.
+    assert np.array_equal(fewer([np.array(kAngle, dtype=float)], .2)[0], kAngle)
 
 
 def test_impossibleTolerances(monkeypatch):
@@ -248,12 +229,9 @@ def test_shortSidesShrinkToPoints(outline):
     assert voronoi(outline, 30, 1, shortest=1e-12) == voronoi(outline, 30, 1)
 
 
-def test_grainsOfAnySize():
-    assert len(voronoi([(0, 0), (1e-100, 0), (1e-100, 1e-100)], 10)) == 10
-    assert len(voronoi([(0, 0), (1e150, 0), (1e150, 1e150)], 10)) == 10
-
-
-def test_missingLibraryIsNamed(monkeypatch):
+def test_grainsOfAnySizeAndWithoutShapely(monkeypatch):
+    for size in (1e-100, 1e150):
+        assert len(voronoi([(0, 0), (size, 0), (size, size)], 10)) == 10
     monkeypatch.setitem(sys.modules, 'shapely.ops', None)
     with pytest.raises(ImportError, match="voronoi works only with .* install Debian's package python3-shapely[.]$"):
         voronoi(kPlate, 3)
@@ -264,6 +242,6 @@ def test_grainsShareSides():
     grains = voronoi(outline, 20)
     joints = grainJoints(grains)
     inner = sum(math.dist(*side) for side in joints)
-    around = sum(math.dist(a, b) for g in grains for a, b in zip(g, g[1:] + g[:1]))
+    around = sum(math.dist(*side) for grain in grains for side in sidesOf(grain))
     assert around == pytest.approx(2 * inner + 6, rel=1e-12)
     assert grainJoints(grains[:1]) == []

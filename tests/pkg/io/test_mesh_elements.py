@@ -1,24 +1,23 @@
 """Elements of mesh files that are no proper ones: each is named by its number in the file and the cause. Parts of one mesh
 without common nodes: they may touch, but not overlap. Abaqus' parts, instances and sets, and what its files have that
 meshio loses."""
-import builtins
 import math
 import os
 import random
+import re
 import warnings
 
 import numpy as np
 import pytest
 
-from fe_scene import fe
-from outline_files import areas, refusesMesh, written
+from fe_scene import fe, heard, O
+from outline_files import areas, lists, refusesMesh, written
 from yadefrag import readMesh, rectangleMesh
 
 kPlaces = {1: (0, 0), 2: (1, 0), 3: (2, 0), 4: (0, 1), 5: (1, 1), 6: (2, 1), 7: (1, .6), 8: (1, 0), 9: (.3, .2),
-           10: (.5, 0)}
+           10: (.5, 0), 11: (1.2, 1.3)}
 kKinds = {2: '1', 3: '2', 4: '3', 6: '9', 8: '16'}  # gmsh's, by the number of nodes
 kAbaqus = {3: 'CPS3', 4: 'CPE4', 6: 'CPS6', 8: 'CPS8'}
-O = builtins.O
 kSentence = 'two parts of the mesh, without common nodes, overlap at'
 # A unit square of two triangles.
 kUnitSquare = '''*Node
@@ -40,12 +39,11 @@ low, high
 
 def gmsh(elements):
     """A file with elements {number: nodes}."""
-    lines = ['$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$Nodes', '%d' % len(kPlaces)]
-    lines += ['%d %r %r 0' % (number, *place) for number, place in kPlaces.items()]
-    lines += ['$EndNodes', '$Elements', '%d' % len(elements)]
-    lines += ['%d %s 2 0 1 %s' % (number, kKinds[len(nodes)], ' '.join(map(str, nodes)))
-              for number, nodes in elements.items()]
-    return '\n'.join([*lines, '$EndElements', ''])
+    places = ['%d %r %r 0' % (number, *place) for number, place in kPlaces.items()]
+    lines = ['%d %s 2 0 1 %s' % (number, kKinds[len(nodes)], ' '.join(map(str, nodes)))
+             for number, nodes in elements.items()]
+    return '\n'.join(['$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$Nodes', str(len(places)), *places, '$EndNodes',
+                      '$Elements', str(len(lines)), *lines, '$EndElements', ''])
 
 
 def abaqus(elements):
@@ -74,6 +72,10 @@ def read(request, folder):
     ({11: (1, 2, 5, 4), 14: (1, 10, 2, 3)}, 'element 14 is a collapsed quad'),
     ({11: (1, 2, 4), 12: (2, 5, 4), 14: (2, 9, 4)}, r'element 14 .*element 1[12], on the same side'),
     ({11: (1, 2, 9), 12: (2, 5, 9), 13: (5, 4, 9), 14: (1, 4, 9), 15: (1, 2, 4)}, 'element 15 overlaps element'),
+    # The inner node lies beyond the opposite side, so that the corners are clockwise.
+    ({11: (1, 3, 11), 12: (3, 6, 11), 13: (6, 4, 11), 14: (4, 1, 11)},
+     'element 13 is inverted: .* overlaps element 1[24]'),
+    ({11: (1, 2, 5), 12: (1, 2, 3), 13: (4, 5, 6), 14: (1, 2, 10)}, 'element 12 is flat: .*; so are 2 others. Correct'),
 ])
 def test_wrongElementsAreNamed(read, elements, sentence):
     with pytest.raises(ValueError, match=sentence) as error:
@@ -81,46 +83,23 @@ def test_wrongElementsAreNamed(read, elements, sentence):
     assert str(error.value).count('\n') == 0 and str(error.value).endswith('that wrote the file.')
 
 
-def test_invertedElementIsNamed(read):
-    """Its inner node 7 lies beyond the opposite side, so that its corners are clockwise."""
-    kPlaces[7] = (1.2, 1.3)
-    try:
-        with pytest.raises(ValueError, match='element 13 is inverted: .* overlaps element 1[24]'):
-            read({11: (1, 3, 7), 12: (3, 6, 7), 13: (6, 4, 7), 14: (4, 1, 7)})
-    finally:
-        kPlaces[7] = (1, .6)
-
-
-def test_oneSentenceCountsAllOfAKind(read):
-    with pytest.raises(ValueError, match='element 12 is flat: .*; so are 2 others. Correct'):
-        read({11: (1, 2, 5), 12: (1, 2, 3), 13: (4, 5, 6), 14: (1, 2, 10)})
-
-
-def test_clockwiseElementsAreReversed(read):
-    assert areas(read({11: (1, 5, 2), 12: (2, 5, 6, 3)})).tolist() == [.5, .5, .5]
-
-
-def test_quadWithOneCornerTwiceIsATriangle(read):
-    with pytest.warns(UserWarning, match='left out are the fourth corner of 1 quad, the first with the number 13'):
-        mesh = read({12: (1, 2, 5, 4), 13: (2, 3, 3, 5)})
-    assert areas(mesh).tolist() == [.5, .5, .5] and len(mesh.leftOut) == 2
-
-
-def test_quadWithThreeCornersOnALineIsDividedThere(read):
-    assert sorted(areas(read({11: (1, 10, 2, 4)}))) == [.25, .25]
-
-
-def test_curvedSidesAreTold(read):
-    with pytest.warns(UserWarning, match='the curves of 1 element, whose sides are straight here .up to 1 m'):
-        mesh = read({11: (1, 3, 6, 7, 8, 9)})
-    assert areas(mesh).tolist() == [1]
+@pytest.mark.parametrize('elements, wanted, words', [
+    ({11: (1, 5, 2), 12: (2, 5, 6, 3)}, [.5, .5, .5], None),  # clockwise ones are reversed
+    ({11: (1, 10, 2, 4)}, [.25, .25], None),                  # a quad with three corners on a line is divided there
+    ({12: (1, 2, 5, 4), 13: (2, 3, 3, 5)}, [.5, .5, .5],
+     'left out are the fourth corner of 1 quad, the first with the number 13'),
+    ({11: (1, 3, 6, 7, 8, 9)}, [1], 'the curves of 1 element, whose sides are straight here .up to 1 m')])
+def test_whatIsReadOfElements(read, elements, wanted, words):
+    with heard() as said:
+        mesh = read(elements)
+    assert areas(mesh).tolist() == wanted and len(said) == (words is not None)
+    assert words is None or re.search(words, said[0]) and mesh.leftOut
 
 
 def test_linesBesideTrianglesAreTold(folder):
     with pytest.warns(UserWarning, match='left out are 2 lines beside the sides of triangles'):
         readMesh(written(folder, 'a.msh', gmsh({11: (1, 2, 5), 12: (1, 2), 13: (3, 6), 14: (2, 3)})))
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         readMesh(written(folder, 'a.msh', gmsh({11: (1, 2, 5), 12: (1, 2), 13: (5, 2)})))
 
 
@@ -220,10 +199,8 @@ def test_partOnceForEachInstance(folder):
     assert points(mesh, 'P-2.left') == [(5, 0), (5, 1)]
     assert points(mesh, 'P-3.left') == [(-1, 10), (0, 10)]  # turned by 90° about (0, 10) after the move
     assert len(points(mesh, 'left')) == 6
-    assert {name: list(of) for name, of in mesh.instances.items()} == \
-        {'P-1': [0, 1], 'P-2': [2, 3], 'P-3': [4, 5]}
-    assert {name: list(of) for name, of in mesh.groups.items()} == \
-        dict(low=[0, 2, 4], high=[1, 3, 5], all=[0, 1, 2, 3, 4, 5])
+    assert lists(mesh.instances) == {'P-1': [0, 1], 'P-2': [2, 3], 'P-3': [4, 5]}
+    assert lists(mesh.groups) == dict(low=[0, 2, 4], high=[1, 3, 5], all=[0, 1, 2, 3, 4, 5])
 
 
 def test_turnedAboutAnyAxis(folder):
@@ -271,14 +248,10 @@ def test_partsWithoutAnInstanceAreTold(folder):
         assert len(readMesh(written(folder, 'a.inp', text)).triangles) == 2
 
 
-def test_partWithoutAssemblyIsReadOnce(folder):
-    mesh = readMesh(written(folder, 'a.inp', '*Part, name=P\n%s*End Part\n' % kUnitSquare))
-    assert areas(mesh).tolist() == [.5, .5] and points(mesh, 'left') == [(0, 0), (0, 1)]
-
-
-def test_nodesInTheInstance(folder):
-    """An instance can have its own mesh."""
-    mesh = readMesh(written(folder, 'a.inp', assembled({'P': ''}, [('P-1', 'P', kUnitSquare)])))
+@pytest.mark.parametrize('text', [
+    '*Part, name=P\n%s*End Part\n' % kUnitSquare, assembled({'P': ''}, [('P-1', 'P', kUnitSquare)])])
+def test_partWithoutAssemblyAndInstanceWithNodesAreReadOnce(folder, text):
+    mesh = readMesh(written(folder, 'a.inp', text))
     assert areas(mesh).tolist() == [.5, .5] and points(mesh, 'left') == [(0, 0), (0, 1)]
 
 

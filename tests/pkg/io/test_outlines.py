@@ -1,6 +1,5 @@
 """Outlines from SVG, GeoJSON, WKT and CSV: places, curves within the tolerance, holes; wrong files of all kinds. What
 the finest feature of an outline costs, before a mesh is made, beside the mesh's own step."""
-import builtins
 import json
 import math
 import sys
@@ -10,12 +9,11 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe
+from fe_scene import fe, O
 from outline_files import area, corners, kSquare, offEllipse, offLine, svg, written
 from yadefrag import outlineReport, readOutline
 from yadefrag.io.readers import loops
 
-O = builtins.O
 kUnit = yadefrag.rectangle((0, 0), (1, 1))
 kShort = [(0, 0), (.5, 0), (.505, 0), (1, 0), (1, 1), (0, 1)]
 kNotch = [(0, 0), (1, 0), (1, 1), (.504, 1), (.504, .5), (.5, .5), (.5, 1), (0, 1)]
@@ -35,8 +33,7 @@ def test_svgPolygonsAndTransforms(folder):
 
 def test_svgIsInUnitsOfItsViewBox(folder):
     body = '<rect width="4" height="3"/>'
-    for page in ('viewBox="0 0 8 6"', 'viewBox="0 0 8 6" width="80mm" height="60mm"',
-                 'width="80" height="60"'):
+    for page in ('viewBox="0 0 8 6"', 'viewBox="0 0 8 6" width="80mm" height="60mm"', 'width="80" height="60"'):
         (outline, _), = readOutline(svg(folder, body, page))
         assert corners(outline) == [(0, -3), (4, -3), (4, 0), (0, 0)], page
 
@@ -45,8 +42,7 @@ def test_svgIsInUnitsOfItsViewBox(folder):
 def test_svgCurvesAreWithinTheTolerance(folder, tolerance):
     file = svg(folder, '<circle cx="10" cy="10" r="5"/><g transform="scale(2 1)">'
                '<ellipse cx="20" cy="25" rx="3" ry="8"/></g>')
-    for (outline, _), centre, a, b in zip(readOutline(file, tolerance),
-                                          ((10, -10), (40, -25)), (5, 6), (5, 8)):
+    for (outline, _), centre, a, b in zip(readOutline(file, tolerance), ((10, -10), (40, -25)), (5, 6), (5, 8)):
         points, middles = offEllipse(outline, centre, a, b)
         assert points < 2e-8 * b
         assert middles <= tolerance
@@ -95,10 +91,9 @@ def test_geoJson(folder):
     features = [dict(type='Feature', properties={}, geometry=one) for one in shapes + [None]]
     data = dict(type='FeatureCollection', features=features)
     found = readOutline(written(folder, 'a.geojson', json.dumps(data)))
-    assert [corners(o) for o, _ in found] == [[(x + a, y + b) for x, y in kSquare]
-                                              for a, b in ((0, 0), (10, 0), (10, 10))]
-    assert [[corners(h) for h in holes] for _, holes in found] == \
-        [[[(1, 1), (2, 1), (2, 2), (1, 2)]], [], []]
+    places = (0, 0), (10, 0), (10, 10)
+    assert [corners(o) for o, _ in found] == [[(x + a, y + b) for x, y in kSquare] for a, b in places]
+    assert [[corners(h) for h in holes] for _, holes in found] == [[[(1, 1), (2, 1), (2, 2), (1, 2)]], [], []]
     alone = readOutline(written(folder, 'a.json', json.dumps(shapes[0])))
     assert alone == found[:1]
 
@@ -118,8 +113,7 @@ def test_csv(folder):
 
 
 def test_whatIsReadGoesIntoAddPolygon(folder):
-    file = svg(folder, '<path d="M0 0 H 40 V 30 H 0 Z "/>'
-               '<circle cx="20" cy="15" r="5"/>')
+    file = svg(folder, '<path d="M0 0 H 40 V 30 H 0 Z "/><circle cx="20" cy="15" r="5"/>')
     solver = fe()
     for shape in readOutline(file, 1e-4, scale=1e-3):
         solver.addPolygon(*shape, size=2e-3, material='m')
@@ -158,17 +152,13 @@ def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
         readOutline(written(folder, name, text), **more)
     words = str(error.value)
     assert words.endswith('.') and '\n' not in words and len(words) < 400
-
-
-def test_missingFile(folder):
     with pytest.raises(FileNotFoundError, match='nowhere.dxf'):
         readOutline(folder + '/nowhere.dxf')
 
 
 @pytest.mark.parametrize('name, module, package', [
     ('a.svg', 'svgelements', 'python3-svgelements'), ('a.dxf', 'ezdxf', 'python3-ezdxf'),
-    ('a.wkt', 'shapely.wkt', 'python3-shapely'),
-    ('a.json', 'shapely.geometry', 'python3-shapely'),
+    ('a.wkt', 'shapely.wkt', 'python3-shapely'), ('a.json', 'shapely.geometry', 'python3-shapely'),
     ('a.png', 'skimage.measure', 'python3-skimage'), ('a.png', 'PIL.Image', 'python3-pil')])
 def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
     monkeypatch.setitem(sys.modules, module, None)
@@ -185,8 +175,7 @@ def test_importNeedsNoneOfTheLibraries(folder, monkeypatch):
 
 def stepOf(outline, holes=(), **more):
     solver = fe()
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore')  # of short edges
+    with warnings.catch_warnings(action='ignore'):  # of short edges
         solver.addPolygon(outline, holes, size=.05, material='m', **more)
     return solver.criticalTimeStep()
 
@@ -201,8 +190,7 @@ def report(outline, holes=(), **more):
     (kNeck, .01, (.51, .5), 'a width of 0.01 m'),
 ])
 def test_finestFeatureAndItsCost(outline, finest, place, word):
-    step = stepOf(outline)
-    found = report(outline)
+    step, found = stepOf(outline), report(outline)
     assert found['finest'] == pytest.approx(finest) and found['points'] == len(outline)
     at = 'shortestEdgeAt' if 'edge' in word else 'narrowestAt'
     assert found[at] == pytest.approx(place)
@@ -213,8 +201,7 @@ def test_finestFeatureAndItsCost(outline, finest, place, word):
 
 
 def test_noFeatureFinerThanTheSize():
-    step = stepOf(kUnit)
-    found = report(kUnit)
+    step, found = stepOf(kUnit), report(kUnit)
     assert found['ratio'] == 1 and found['finest'] == .05 and found['shortestEdge'] == 1
     assert found['timeStep'] == pytest.approx(step, rel=.4)
     assert 'no edge and no gap finer than the size' in found['words']
@@ -230,17 +217,12 @@ def test_holesAndWallsBetweenThem():
 
 
 def test_simplifyTakesTheCostAway():
+    """And nothing is added to the scene."""
     fe()
     bumps = np.linspace(0, 1, 401)
     outline = [(x, 1e-4 * (i % 2)) for i, x in enumerate(bumps)] + [(1, 1), (0, 1)]
     assert report(outline)['ratio'] == pytest.approx(20, rel=.01)
-    assert report(outline, simplify=1e-3)['ratio'] == 1
-
-
-def test_nothingIsAdded():
-    fe()
-    report(kShort)
-    assert len(O.bodies) == 0
+    assert report(outline, simplify=1e-3)['ratio'] == 1 and len(O.bodies) == 0
 
 
 @pytest.mark.parametrize('call, sentence', [

@@ -1,8 +1,9 @@
 """Outlines from DXF: lines that meet, arcs, bulges, splines, blocks, layers; what a viewer shows is what is read, the
 rest is named with its number."""
 import math
-import os
+import pathlib
 
+import ezdxf
 import numpy as np
 import pytest
 
@@ -14,11 +15,11 @@ kInvisible = 77  # colour of entities that `hiding` makes invisible: ezdxf 0.18 
 
 
 def dxf(folder, draw, name='a.dxf'):
-    import ezdxf
     document = ezdxf.new('R2010')
     draw(document)
-    document.saveas(os.path.join(folder, name))
-    return os.path.join(folder, name)
+    file = '%s/%s' % (folder, name)
+    document.saveas(file)
+    return file
 
 
 def test_dxfLinesAndArcsThatMeet(folder):
@@ -81,7 +82,6 @@ def test_dxfSpline(folder, tolerance):
         document.modelspace().add_line((30, 0), (30, 0))
     file = dxf(folder, draw)
     (outline, holes), = readOutline(file, tolerance)
-    import ezdxf
     spline, = ezdxf.readfile(file).modelspace().query('SPLINE')
     curve = np.array([(p.x, p.y) for p in spline.construction_tool().approximate(3000)])
     assert offLine(curve[::7], np.array(outline)) <= tolerance
@@ -132,9 +132,8 @@ def test_dxfByLayer(folder):
 
 
 def hiding(file):
-    with open(file) as text:
-        contents = text.read()
-    return written(os.path.dirname(file), 'b.dxf', contents.replace(' 62\n77\n', ' 62\n77\n 60\n1\n'))
+    file = pathlib.Path(file)
+    return written(file.parent, 'b.dxf', file.read_text().replace(' 62\n77\n', ' 62\n77\n 60\n1\n'))
 
 
 def square(layout, side, at=(0, 0), **attributes):
@@ -280,7 +279,6 @@ def test_dxfCurveThatIsFittedToAFrame(folder):
 
 def test_dxfDamagedFile(folder):
     file = dxf(folder, lambda document: square(document.modelspace(), 3))
-    with open(file) as text:
-        lines = text.read()
+    lines = pathlib.Path(file).read_text()
     found, _ = read(written(folder, 'b.dxf', lines[:lines.rindex('ENDSEC')]))
     assert net(found) == pytest.approx(9)

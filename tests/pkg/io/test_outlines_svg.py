@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import numpy as np
+from PIL import Image
 import pytest
 
 from outline_files import net, read, svg
@@ -154,7 +155,6 @@ def test_whatIsShownIsRead(folder, name):
 @pytest.mark.parametrize('name', sorted(set(kConstructs) - kNotInLibrsvg))
 def test_asLibrsvgPaintsIt(folder, name):
     """Pixels of a picture of 400 by 400 that are painted, beside the area; white ones are not seen."""
-    from PIL import Image
     file = svg(folder, kConstructs[name][0], 'viewBox="0 0 100 100" width="400" height="400"')
     picture = os.path.join(folder, 'a.png')
     subprocess.run(['gdk-pixbuf-thumbnailer', '-s', '400', file, picture], check=True, timeout=60)

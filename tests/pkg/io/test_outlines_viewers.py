@@ -3,8 +3,12 @@ with holes, specks, edges."""
 import json
 import math
 import os
+import pathlib
+import struct
+import zlib
 
 import numpy as np
+from PIL import Image
 import pytest
 
 from outline_files import area, corners, kSquare, net, offEllipse, read, written
@@ -23,21 +27,23 @@ def feature(geometry):
     return dict(type='Feature', properties={}, geometry=geometry)
 
 
+def collection(*geometries):
+    return dict(type='GeometryCollection', geometries=geometries)
+
+
 kFrame = polygon(ring(4), ring(2, (1, 1)))
 # The filler has one more point on a side: 1.7, 1.
 kFiller = polygon([(1, 1), (1.7, 1), (3, 1), (3, 3), (1, 3), (1, 1)])
 kMaps = {  # name: (texts, areas of the shapes without holes, words)
     'coverage': ([dict(type='FeatureCollection', features=[feature(kFrame), feature(kFiller)])], [12, 4], ''),
-    'coverage, filler first': ([dict(type='GeometryCollection', geometries=[kFiller, kFrame])], [4, 12], ''),
-    'coverage, hole filled by two': ([dict(type='GeometryCollection', geometries=[
-        kFrame, polygon([(1, 1), (3, 1), (3, 2), (1, 2), (1, 1)]), polygon([(1, 2), (3, 2), (3, 3), (1, 3), (1, 2)])])],
-        [12, 2, 2], ''),
+    'coverage, filler first': ([collection(kFiller, kFrame)], [4, 12], ''),
+    'coverage, hole filled by two': ([collection(kFrame, polygon([(1, 1), (3, 1), (3, 2), (1, 2), (1, 1)]),
+                                                 polygon([(1, 2), (3, 2), (3, 3), (1, 3), (1, 2)]))], [12, 2, 2], ''),
     'neighbours': ([polygon(ring(4)), polygon(ring(4, (4, 0)))], [16, 16], ''),
     'one a line': ([feature(polygon(ring(4))), feature(polygon(ring(2, (9, 0))))], [16, 4], ''),
     'list': ([[polygon(ring(4)), polygon(ring(2, (9, 0)))]], [16, 4], ''),
-    'nested collections': ([feature(dict(type='GeometryCollection', geometries=[
-        dict(type='GeometryCollection', geometries=[polygon(ring(4))]), dict(type='Point', coordinates=(1, 1))]))],
-        [16], 'points (1)'),
+    'nested collections': ([feature(collection(collection(polygon(ring(4))), dict(type='Point', coordinates=(1, 1))))],
+                           [16], 'points (1)'),
     'multipolygon': ([dict(type='MultiPolygon', coordinates=[[ring(4), ring(2, (1, 1))], [ring(1, (1.5, 1.5))]])],
                      [12, 1], ''),
     'twice': ([polygon(ring(4)), polygon(ring(4)[1:] + ring(4)[1:2])], [16], 'second copies of a line (1)'),
@@ -68,9 +74,7 @@ def test_maps(folder, name, ending, between):
 def test_wktThatIsNone(folder, text):
     with pytest.raises(ValueError, match='a.wkt (is not a readable WKT file|has no lines)'):
         readOutline(written(folder, 'a.wkt', text))
-
-
-def test_wktWithANumberOfItsSystem(folder):
+    # With the number of its system and heights.
     assert net(read(written(folder, 'a.wkt', 'SRID=4326;POLYGON Z ((0 0 1,4 0 1,4 4 1,0 0 1))'))[0]) == 8
 
 
@@ -96,18 +100,15 @@ def test_csvHeadings(folder, first):
         assert len(found) == wanted[1] and corners(found[-1][0]) == kSquare
 
 
-def test_csvDecimalComma(folder):
-    (outline, _), = readOutline(written(folder, 'a.csv', 'x;y\n0,5;0\n4,5; 0\n4,5; 4\n0,5;4\n'))
-    assert corners(outline) == [(x + .5, y) for x, y in kSquare]
-
-
 @pytest.mark.parametrize('encoding', ['utf-8', 'utf-8-sig', 'utf-16'])
 def test_csvOfSpreadsheets(folder, encoding):
-    file = os.path.join(folder, 'a.csv')
-    with open(file, 'w', encoding=encoding) as out:
-        out.write('"Länge";"y"\n"0";"0"\n"4";"0"\n"4";"4"\n"0,5";"4"\n')
+    """Commas are decimal ones."""
+    file = pathlib.Path(folder, 'a.csv')
+    file.write_text('"Länge";"y"\n"0";"0"\n"4";"0"\n"4";"4"\n"0,5";"4"\n', encoding=encoding)
     (outline, _), = readOutline(file)
     assert corners(outline) == [(0, 0), (4, 0), (4, 4), (.5, 4)]
+    (outline, _), = readOutline(written(folder, 'a.csv', 'x;y\n0,5;0\n4,5; 0\n4,5; 4\n0,5;4\n'))
+    assert corners(outline) == [(x + .5, y) for x, y in kSquare]
 
 
 def flag(x, y):
@@ -123,7 +124,6 @@ kTurns = {1: lambda a: a, 2: np.fliplr, 3: lambda a: np.rot90(a, 2), 4: np.flipu
     *((turn, *one) for turn in kTurns for one in [('png', 8), ('png', 16), ('tif', 8), ('tif', 16), ('jpg', 8)]),
     (1, 'bmp', 8), (6, 'jpeg', 8), (6, 'tiff', 16)])
 def test_picturesAreReadUpright(folder, turn, ending, bits):
-    from PIL import Image
     y, x = np.mgrid[31.5:-.5:-1, .5:24]
     kind = np.uint8 if bits == 8 else np.uint16
     upright = (np.where(flag(x, y), .1, .9) * (2**bits - 1)).astype(kind)  # no black, no white
@@ -143,7 +143,6 @@ def test_picturesAreReadUpright(folder, turn, ending, bits):
                                   'white is zero', 'white is zero, 16 bits'])
 def test_picturesOfOtherKinds(folder, mode):
     """A dark square of 20 pixels; where the mode has alpha, the paper is black, but transparent."""
-    from PIL import Image
     isDark = np.zeros((40, 40), dtype=bool)
     isDark[10:30, 5:25] = True
     grey = np.where(isDark, 0, 255).astype(np.uint8)
@@ -170,22 +169,17 @@ def test_picturesOfOtherKinds(folder, mode):
 
 def greyPng(folder, values, transparent):
     """A PNG of 16 bits, of which one value is transparent; PIL does not write it."""
-    import struct
-    import zlib
-
     def part(name, data):
         return struct.pack('>I', len(data)) + name + data + struct.pack('>I', zlib.crc32(name + data))
     rows = b''.join(b'\0' + row.astype('>u2').tobytes() for row in values)
-    file = os.path.join(folder, 'grey.png')
-    with open(file, 'wb') as out:
-        out.write(b'\x89PNG\r\n\x1a\n' + part(b'IHDR', struct.pack('>IIBBBBB', *values.shape[::-1], 16, 0, 0, 0, 0)) +
-                  part(b'tRNS', struct.pack('>H', transparent)) + part(b'IDAT', zlib.compress(rows)) +
-                  part(b'IEND', b''))
+    file = pathlib.Path(folder, 'grey.png')
+    file.write_bytes(b'\x89PNG\r\n\x1a\n' + part(b'IHDR', struct.pack('>IIBBBBB', *values.shape[::-1], 16, 0, 0, 0, 0))
+                     + part(b'tRNS', struct.pack('>H', transparent)) + part(b'IDAT', zlib.compress(rows))
+                     + part(b'IEND', b''))
     return file
 
 
 def test_furtherPicturesOfAFile(folder):
-    from PIL import Image
     file = os.path.join(folder, 'a.tif')
     grey = np.full((40, 40), 255, dtype=np.uint8)
     grey[10:30, 10:30] = 0
@@ -196,7 +190,6 @@ def test_furtherPicturesOfAFile(folder):
 
 @pytest.mark.parametrize('kind', [np.int32, np.float32])
 def test_greysOf32BitsAreRefused(folder, kind):
-    from PIL import Image
     file = os.path.join(folder, 'a.tif')
     Image.fromarray(np.eye(9, dtype=kind)).save(file)
     with pytest.raises(ValueError, match='a.tif is not a readable picture: its grey values do not have 8 or 16 bits'):
@@ -220,12 +213,11 @@ def test_regionsWithinRegions(folder, seed):
             parts.append(polygon(*(loop + loop[:1] for loop in loops[:count])))
             loops = loops[count:]
     random.shuffle(parts)
-    found, words = read(written(folder, 'a.json', json.dumps(dict(type='GeometryCollection', geometries=parts))))
+    found, words = read(written(folder, 'a.json', json.dumps(collection(*parts))))
     assert net(found) == pytest.approx(wanted, rel=1e-9) and not words
 
 
 def silhouette(folder, inside, size=(120, 100), mode='L'):
-    from PIL import Image
     y, x = np.mgrid[size[1] - .5:-.5:-1, .5:size[0]]
     isDark = inside(x, y)
     if mode == 'L':
@@ -262,8 +254,6 @@ def test_specksAreOmittedIfRequested(folder):
     assert area(outline) == pytest.approx(60 * 40, rel=1e-3)
     with pytest.raises(ValueError, match='L.png, tolerance: simplify is 1 m, .*could vanish'):
         readOutline(file, 1)
-
-
-def test_silhouetteAtTheEdgeOfThePicture(folder):
+    # At the edge of the picture.
     (outline, _), = readOutline(silhouette(folder, lambda x, y: x < 60), .1)
     assert area(outline) == pytest.approx(60 * 100, rel=1e-3)

@@ -1,15 +1,19 @@
 """Pictures, films and ParaView files of a solver, here a stand-in with two triangles."""
-
-import subprocess
+import ast
+import pathlib
 import types
 
+import meshio
 import numpy
+from PIL import Image
 import pytest
 
 import scenes
-import yadefrag
-from project import yadeCommand
-from yade import wrapper
+from fe_scene import block, fe as solver
+from outline_files import written
+from project import inYade
+from yade import utils, wrapper
+from yade.minieigenHP import Quaternion
 from yadefrag import FERecorder
 from yadefrag.fe.fields import FIELDS
 from yadefrag.io import recorder
@@ -42,7 +46,6 @@ def makeSolver():
 
 
 def test_vtkFileHoldsEverything(folder):
-    meshio = pytest.importorskip('meshio')
     fe = makeSolver()
     recorder.exportVTK(fe, folder + '/out.vtu')
     mesh = meshio.read(folder + '/out.vtu')
@@ -52,15 +55,11 @@ def test_vtkFileHoldsEverything(folder):
                          ('contact force', fe.contactForces), ('reaction', fe.reactions)):
         assert numpy.array_equal(mesh.point_data[name][:, :2], values), name
         assert not mesh.point_data[name][:, 2].any()
-    assert numpy.array_equal(mesh.cell_data['stress'][0], fe.stress)
-    assert numpy.array_equal(mesh.cell_data['strain'][0], fe.strain)
-    assert numpy.array_equal(mesh.cell_data['component'][0], fe.components)
-    assert numpy.array_equal(mesh.cell_data['fragment'][0], fe.fragmentOf)
-
-
-def test_vtkFileIsRefusedInOneSentence(folder):
+    for name, values in (('stress', fe.stress), ('strain', fe.strain), ('component', fe.components),
+                         ('fragment', fe.fragmentOf)):
+        assert numpy.array_equal(mesh.cell_data[name][0], values), name
     with pytest.raises(ValueError, match=r"out\.vtk', its name must end with '\.vtu'"):
-        recorder.exportVTK(makeSolver(), folder + '/out.vtk')
+        recorder.exportVTK(fe, folder + '/out.vtk')
 
 
 def shown(ax):
@@ -81,7 +80,6 @@ def test_fieldIsShown(field, values):
 @pytest.mark.parametrize('name', FIELDS)
 def test_allFieldsAreAcceptedEverywhere(folder, name):
     """By their name, and by the words on the axis: 'plasticStrain' is 'plastic strain'."""
-    meshio = pytest.importorskip('meshio')
     zero = numpy.zeros(2)
     fe = makeSolver()
     fe.plasticStrain, fe.temperature, fe.damage, fe._yields, fe._fails = zero, zero + 300, zero, True, True
@@ -102,16 +100,19 @@ def boxes(figure):
             if one.get_tightbbox() is not None and one.get_tightbbox().width > 0}
 
 
+def requireInside(every, figure):
+    assert all(0 <= box.x0 and box.x1 <= figure.bbox.width and 0 <= box.y0 and box.y1 <= figure.bbox.height
+               for box in every.values())
+
+
 def panel(low, high, **settings):
-    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
-    fe = wrapper.FESolver()
-    fe.addPolygon(yadefrag.rectangle(low, high), size=.01, material='m', velocity=(0, 1))
+    fe = solver()
+    block(fe, low, high, .01, velocity=(0, 1))
     return pictures.plotMesh(fe, **settings)
 
 
 @pytest.mark.parametrize('high', [(.5, .02), (.02, .5), (.3, .1), (.1, .1), (.1, .06)])
 def test_colourBarIsLongAndThePageFull(folder, high):
-    image = pytest.importorskip('PIL.Image')
     ax = panel((0, 0), high, field='sigma1', file=folder + '/a.png')
     figure = ax.figure
     every = boxes(figure)
@@ -120,9 +121,8 @@ def test_colourBarIsLongAndThePageFull(folder, high):
     long, short, beside = (its.width, its.height, frame.width) if its.width > its.height else \
         (its.height, its.width, frame.height)
     assert long > 300 and 5 < short < 40 and long > .8 * beside
-    assert all(box.x0 >= 0 and box.y0 >= 0 and box.x1 <= figure.bbox.width and box.y1 <= figure.bbox.height
-               for box in every.values())
-    with image.open(folder + '/a.png') as picture:
+    requireInside(every, figure)
+    with Image.open(folder + '/a.png') as picture:
         dark = (numpy.asarray(picture.convert('L')) < 250)
     rows, columns = dark.any(axis=1), dark.any(axis=0)
     assert min(rows.argmax(), rows[::-1].argmax(), columns.argmax(), columns[::-1].argmax()) > 0
@@ -138,8 +138,7 @@ def test_labelsOfStackedFieldsAreWhole():
     texts = [box for one, box in every.items() if one not in figure.axes]
     frames = [ax.get_window_extent() for ax in figure.axes]
     assert not any(text.overlaps(frame) for text in texts for frame in frames)
-    assert all(0 <= box.x0 and box.x1 <= figure.bbox.width and 0 <= box.y0 and box.y1 <= figure.bbox.height
-               for box in every.values())
+    requireInside(every, figure)
     assert axes[3].get_title() == 'fragment' and len(figure.axes) == 7
 
 
@@ -170,22 +169,23 @@ def test_elasticBodiesHaveNoTemperature():
 
 
 def test_pictureIsWritten(folder):
-    image = pytest.importorskip('PIL.Image')
     for field in (None, 'mises', 'speed'):
         path = '%s/%s.png' % (folder, field)
         pictures.plotMesh(makeSolver(), field, path)
-        with image.open(path) as picture:
+        with Image.open(path) as picture:
             assert len(picture.getcolors(1 << 24)) > 10
+
+
+def squareBody():
+    fe = solver()
+    block(fe, (0, 0), (1, 1), .5)
+    return fe
 
 
 def scenePicture(**settings):
     """Axes of a square body, two spheres, and a clump of two, in a scene of YADE."""
-    from yade import utils, wrapper
-    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
-    fe = wrapper.FESolver()
-    fe.addPolygon([(0, 0), (1, 0), (1, 1), (0, 1)], size=.5, material='m')
-    O.bodies.append([utils.sphere((2, 0, 0), .5, color=(1, 0, 0)),
-                     utils.sphere((0, -3, 7), .25, color=(0, 0, 1))])
+    fe = squareBody()
+    O.bodies.append([utils.sphere((2, 0, 0), .5, color=(1, 0, 0)), utils.sphere((0, -3, 7), .25, color=(0, 0, 1))])
     O.bodies.appendClumped([utils.sphere((4, 1, 0), .3), utils.sphere((4.2, 1, 0), .2)])
     return pictures.plotMesh(fe, **settings)
 
@@ -198,13 +198,12 @@ def drawnSpheres(ax):
 
 
 def test_spheresAndMembersOfClumpsAreDrawn(folder):
-    image = pytest.importorskip('PIL.Image')
     ax = scenePicture(file=folder + '/a.png')
     # Matplotlib keeps half the widths.
     assert sorted(drawnSpheres(ax)) == [(0, -3, .25), (2, 0, .5), (4, 1, .3), (4.2, 1, .2)]
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     assert left < -.25 and right > 4.4 and bottom < -3.25 and top > 1.3
-    with image.open(folder + '/a.png') as picture:
+    with Image.open(folder + '/a.png') as picture:
         pixels = numpy.asarray(picture.convert('RGB')).reshape(-1, 3)
     for colour, radius in (((255, 0, 0), .5), ((0, 0, 255), .25)):
         count = (pixels == colour).all(axis=1).sum()
@@ -212,18 +211,9 @@ def test_spheresAndMembersOfClumpsAreDrawn(folder):
         assert count == pytest.approx(numpy.pi * (radius * scale)**2, rel=.1)
 
 
-def test_spheresAreOmittedIfRequested():
-    ax = scenePicture(spheres=False)
-    assert drawnSpheres(ax) == [] and ax.get_xlim()[1] < 1.2
-
-
 def rigidScene():
     """A square body of 1 m on a turned box, between a wall and a facet, and what is not in the plane."""
-    from yade import utils, wrapper
-    from yade.minieigenHP import Quaternion
-    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
-    fe = wrapper.FESolver()
-    fe.addPolygon([(0, 0), (1, 0), (1, 1), (0, 1)], size=.5, material='m')
+    fe = squareBody()
     O.bodies.append([
         utils.box((.5, -.3, 0), (.1, .3, 5), orientation=Quaternion((0, 0, 1), numpy.pi / 2), color=(1, 0, 0)),
         # Its corners are at z = -1 and 3: it cuts the plane at a quarter of two of its sides.
@@ -245,7 +235,6 @@ def drawnRigid(ax):
 
 
 def test_sectionsOfWallsBoxesAndFacetsAreDrawn(folder):
-    image = pytest.importorskip('PIL.Image')
     ax = pictures.plotMesh(rigidScene(), 'component', file=folder + '/a.png')
     (box,), (facet,), walls = drawnRigid(ax)
     assert sorted(box.round(9).tolist()) == [[.2, -.4], [.2, -.2], [.8, -.4], [.8, -.2]]
@@ -253,7 +242,7 @@ def test_sectionsOfWallsBoxesAndFacetsAreDrawn(folder):
     assert walls == {(0, -.25), (1, -90)}
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     assert -.5 < left < -.25 and 1.3 < right < 1.5 and -.6 < bottom < -.4 and 1 < top < 1.2
-    with image.open(folder + '/a.png') as picture:
+    with Image.open(folder + '/a.png') as picture:
         pixels = numpy.asarray(picture.convert('RGB'))
     scale = ax.get_window_extent().width * 150 / ax.figure.dpi / (right - left)  # pixels per m
     red = (pixels == (255, 0, 0)).all(axis=2).sum()
@@ -263,14 +252,16 @@ def test_sectionsOfWallsBoxesAndFacetsAreDrawn(folder):
     assert (pixels == (0, 0, 255)).all(axis=2).any() and not (pixels == (255, 255, 0)).all(axis=2).any()
 
 
-def test_rigidBodiesAreOmittedIfRequested():
+def test_spheresAndRigidBodiesAreOmittedIfRequested():
+    ax = scenePicture(spheres=False)
+    assert drawnSpheres(ax) == [] and ax.get_xlim()[1] < 1.2
+    scenes.clear()
     ax = pictures.plotMesh(rigidScene(), rigidBodies=False)
     assert drawnRigid(ax) == ([], [], set()) and ax.get_xlim()[0] > -.2 and ax.get_xlim()[1] < 1.2
 
 
 def test_longFloorsDoNotMakeBodiesSmall():
     """Of what is drawn, bodies and spheres take at least half: the box is seen as far as that goes."""
-    from yade import utils
     fe = rigidScene()
     O.bodies.append(utils.box((0, -20.5, 0), (1000, 20, 1)))
     ax = pictures.plotMesh(fe)
@@ -328,11 +319,8 @@ def test_curvesOfFractureAreDistinguishable(folder):
     are a dashed line of the colour of all cracks."""
     from matplotlib import colors
     from yadefrag.plots import fragments
-    file = folder + '/run.csv'
-    with open(file, 'w') as out:
-        out.write(fragments._RECORDED + '\n')
-        for step in range(2):
-            out.write(','.join(map(str, range(step, step + 17))) + '\n')
+    rows = [','.join(map(str, range(step, step + 17))) for step in range(2)]
+    file = written(folder, 'run.csv', '\n'.join([fragments._RECORDED, *rows, '']))
     lines = [line for ax in fragments.plotFracture(file, folder + '/a.png') for line in ax.lines]
     labels = [line.get_label() for line in lines]
     assert len(set(labels)) == len(labels) == 13
@@ -345,9 +333,7 @@ def test_curvesOfFractureAreDistinguishable(folder):
 
 def imports(module):
     """Names of the package's modules that a module imports, at its top or in a function."""
-    import ast
-    with open(module.__file__) as source:
-        tree = ast.parse(source.read())
+    tree = ast.parse(pathlib.Path(module.__file__).read_text())
     return {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
 
 
@@ -358,40 +344,26 @@ def test_picturesAndFragmentsDoNotImportEachOther():
     assert not {'yadefrag.plots.pictures', 'yadefrag.plots.fragments'} & imports(axes)
 
 
-class Mover:
-    """A solver whose body goes right by 0.1 m a step, by YADE's loop."""
-
-    def __init__(self):
-        self.fe = makeSolver()
-
-    def __call__(self):
-        self.fe.nodes = self.fe.nodes + [.1, 0]
-
-
 def test_filmRunsTheScene(folder):
-    image = pytest.importorskip('PIL.Image')
-    from yade import utils, wrapper
-    mover = Mover()
-    utils.mover = mover
-    O.engines = [wrapper.PyRunner(command='__import__("yade.utils").utils.mover()', iterPeriod=1,
-                                  initRun=True)]
+    """Its body goes right by 0.1 m a step, by YADE's loop."""
+    fe = makeSolver()
+    utils.mover = lambda: setattr(fe, 'nodes', fe.nodes + [.1, 0])
+    O.engines = [wrapper.PyRunner(command='__import__("yade.utils").utils.mover()', iterPeriod=1, initRun=True)]
     O.dt = 1
-    frames = pictures.animate(mover.fe, folder + '/out.gif', steps=7, every=3, field='mises')
+    frames = pictures.animate(fe, folder + '/out.gif', steps=7, every=3, field='mises')
     del utils.mover
     assert O.iter == 7 and frames == 4
-    assert mover.fe.nodes[0, 0] == pytest.approx(.7)
-    with image.open(folder + '/out.gif') as film:
+    assert fe.nodes[0, 0] == pytest.approx(.7)
+    with Image.open(folder + '/out.gif') as film:
         assert film.n_frames == 4
 
 
 def test_importCostsNoPlotting(folder):
     """Scripts that draw nothing do not wait for Matplotlib and meshio."""
-    with open(folder + '/script.py', 'w') as script:
-        script.write('import sys\n'
-                     'before = set(sys.modules)\n'
-                     'import yadefrag\n'
-                     'new = {name.partition(".")[0] for name in set(sys.modules) - before}\n'
-                     'print("@", sorted({"matplotlib", "meshio", "PIL"} & new))\n')
-    done = subprocess.run([*yadeCommand(), folder + '/script.py'], capture_output=True, text=True,
-                          check=True)
-    assert '@ []' in done.stdout
+    script = written(folder, 'script.py', '''import sys
+before = set(sys.modules)
+import yadefrag
+new = {name.partition(".")[0] for name in set(sys.modules) - before}
+print("@", sorted({"matplotlib", "meshio", "PIL"} & new))
+''')
+    assert '@ []' in inYade(script).stdout

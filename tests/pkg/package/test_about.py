@@ -33,14 +33,12 @@ def test_allIsWellHere():
     assert well and lines[-1] == 'All is well.'
     rows = byName(lines)
     assert yadefrag.__version__ in rows['yadefrag'] and config.version in rows['YADE']
+    # Of git, or of the project.
+    assert re.fullmatch(r'\d+\.\d+\.\d+(\+(\d+\.)?g[0-9a-f]{7})?', yadefrag.__version__)
     flags = pathlib.Path('/proc/cpuinfo').read_text()
     assert rows['instructions'] == ('AVX2' if re.search(r'\bavx2\b', flags) else 'SSE2')
     assert pathlib.Path(rows['examples'], 'README.md').exists()
     assert pathlib.Path(rows['manual']).exists()
-
-
-def test_versionIsThatOfGitOrOfTheProject():
-    assert re.fullmatch(r'\d+\.\d+\.\d+(\+(\d+\.)?g[0-9a-f]{7})?', yadefrag.__version__)
 
 
 def test_whatIsWrongIsNamed(monkeypatch):
@@ -51,9 +49,8 @@ def test_whatIsWrongIsNamed(monkeypatch):
 
 
 def asked(**more):
-    environment = {**os.environ, 'PYTHONPATH': str(PACKAGE), **more}
     return subprocess.run([sys.executable, '-m', 'yadefrag'], capture_output=True, text=True,
-                          env=environment, check=False)
+                          env={**os.environ, 'PYTHONPATH': str(PACKAGE), **more}, check=False)
 
 
 def test_plainPythonStartsAYade():
@@ -89,29 +86,13 @@ def collider(request):
     return getattr(wrapper, request.param)
 
 
-def test_somethingIsPublished():
-    assert len(NAMES) > 10 and sum(name.endswith('Collider') for name in NAMES) == 3
-
-
 def test_classIsWhereScriptsLookForIt(made):
+    assert len(NAMES) > 10 and sum(name.endswith('Collider') for name in NAMES) == 3
     name = made.__name__
-    assert getattr(yadefrag, name) is made
-    assert getattr(builtins, name) is made
-    assert name in system.childClasses('Serializable')
-
-
-def test_colliderIsAChildOfCollider(collider):
-    assert issubclass(collider, wrapper.Collider)
-    assert O.isChildClassOf(collider.__name__, 'Collider')
-    assert collider.__name__ in system.childClasses('Collider')
-
-
-def test_keywordsAreAttributes(collider):
-    one = collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.25, label='scratch', avoidSelfInteractionMask=2)
-    assert (one.verletDist, one.label, one.avoidSelfInteractionMask) == (.25, 'scratch', 2)
-    assert [type(f) for f in one.boundDispatcher.functors] == [wrapper.Bo1_Sphere_Aabb]
-    one.updateAttrs({'verletDist': .5})
-    assert one.verletDist == .5 and one.dict()['verletDist'] == .5
+    assert getattr(yadefrag, name) is made is getattr(builtins, name)
+    isCollider = name.endswith('Collider')
+    assert name in system.childClasses('Serializable') and (name in system.childClasses('Collider')) == isCollider
+    assert issubclass(made, wrapper.Collider) == O.isChildClassOf(name, 'Collider') == isCollider
 
 
 def test_errorsAreYades(made):
@@ -130,8 +111,7 @@ def test_errorsAreYades(made):
 
 
 def test_dictRebuildsTheObject(made):
-    one = made()
-    other = made()
+    one, other = made(), made()
     other.updateAttrs(one.dict())
     assert other.dict().keys() == one.dict().keys()
     assert repr(one).startswith('<%s instance' % made.__name__)
@@ -139,19 +119,21 @@ def test_dictRebuildsTheObject(made):
 
 
 @pytest.mark.parametrize('ending', ['.xml', '.xml.bz2', '.yade', '.yade.gz'])
-def test_savedAndLoaded(collider, ending, folder):
+def test_keywordsAreAttributesAlsoWhenLoaded(collider, ending, folder):
+    one = collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.25, label='finder', avoidSelfInteractionMask=2)
+    assert (one.verletDist, one.label, one.avoidSelfInteractionMask) == (.25, 'finder', 2)
+    one.updateAttrs({'verletDist': .5})
+    assert one.verletDist == .5
+    O.engines = [wrapper.ForceResetter(), one]
+    wanted = {name: value for name, value in one.dict().items() if isinstance(value, (bool, int, float, str))}
+    assert wanted['verletDist'] == .5
     path = os.path.join(folder, 'scene' + ending)
-    O.engines = [wrapper.ForceResetter(), collider([wrapper.Bo1_Sphere_Aabb()], verletDist=.125, label='finder')]
-    wanted = O.engines[1].dict()
     O.save(path)
     O.reset()
     O.load(path)
     loaded = O.engines[1]
-    assert type(loaded) is collider and len(loaded.boundDispatcher.functors) == 1
-    values = loaded.dict()
-    for name, value in wanted.items():
-        if isinstance(value, (bool, int, float, str)):
-            assert values[name] == value, name
+    assert type(loaded) is collider and [type(f) for f in loaded.boundDispatcher.functors] == [wrapper.Bo1_Sphere_Aabb]
+    assert {name: loaded.dict()[name] for name in wanted} == wanted
 
 
 # --- type hints

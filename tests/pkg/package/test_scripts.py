@@ -1,18 +1,28 @@
-"""The scripts of scripts/: which systems and arguments they refuse, each in one sentence. A plugin for a YADE that
-its user built: flags from its config.py, refusals, what the import compares."""
+"""The scripts of scripts/: which systems and arguments they refuse, each in one sentence. A plugin for a YADE that its
+user built: flags from its config.py, refusals, what the import compares. scripts/bench codes: LAMMPS, LIGGGHTS and
+YADE with our engines compute the same motion from the same scene."""
 import os
 import subprocess
+import sys
 
 import pytest
 from yadefrag import support
-import project
 from project import ROOT
+
+# Last: its modules have names that other folders have, too.
+sys.path.append(str(ROOT / 'tests' / 'benchmark'))
+import codes  # noqa: E402
 
 
 def ask(*command, **more):
-    return subprocess.run([str(ROOT / 'scripts' / command[0]), *command[1:]], text=True, cwd=ROOT,
-                          capture_output=True, stdin=subprocess.DEVNULL, env={**os.environ, **more},
-                          check=False)
+    return subprocess.run([str(ROOT / 'scripts' / command[0]), *command[1:]], text=True, cwd=ROOT, capture_output=True,
+                          stdin=subprocess.DEVNULL, env={**os.environ, **more}, check=False)
+
+
+def requireRefused(done, *words):
+    """In one line, which has these words."""
+    assert (done.returncode, done.stdout, done.stderr.count('\n')) == (1, '', 1)
+    assert all(word in done.stderr for word in words)
 
 
 def system(folder, name, version):
@@ -32,10 +42,8 @@ def test_setUpAcceptsTheReleases(version, tmp_path):
 
 @pytest.mark.parametrize('name, version', [('debian', '11'), ('debian', '15'), ('debian', 'duke'), ('ubuntu', '24.04')])
 def test_setUpRefusesOtherSystems(name, version, tmp_path):
-    done = ask('setup', YADEFRAG_OS_RELEASE=system(tmp_path, name, version))
-    assert done.returncode == 1 and done.stderr.count('\n') == 1
-    for word in (name + ' ' + version, '2023.02a', '2025.2.0', '2026.1.0'):
-        assert word in done.stderr
+    requireRefused(ask('setup', YADEFRAG_OS_RELEASE=system(tmp_path, name, version)),
+                   name + ' ' + version, '2023.02a', '2025.2.0', '2026.1.0')
 
 
 @pytest.mark.parametrize('command, words', [
@@ -52,9 +60,7 @@ def test_setUpRefusesOtherSystems(name, version, tmp_path):
     (('release', 'new'), "'new' is not a version"),
 ])
 def test_wrongArgumentsAreNamed(command, words):
-    done = ask(*command, CLEAN_LAYER='')
-    assert done.returncode == 1 and done.stdout == ''
-    assert done.stderr.count('\n') == 1 and words in done.stderr
+    requireRefused(ask(*command, CLEAN_LAYER=''), words)
 
 
 def test_anInstalledPluginIsNotTestedInsteadOfTheBuiltOne(tmp_path):
@@ -63,9 +69,7 @@ def test_anInstalledPluginIsNotTestedInsteadOfTheBuiltOne(tmp_path):
     installed.mkdir(parents=True)
     (tmp_path / 'bin').mkdir()
     (tmp_path / 'bin' / 'yade-mine').touch()
-    done = ask('test', 'yade', YADE_PREFIX=str(tmp_path))
-    assert done.returncode == 1 and done.stdout == ''
-    assert done.stderr.count('\n') == 1 and 'installed in %s,' % installed in done.stderr
+    requireRefused(ask('test', 'yade', YADE_PREFIX=str(tmp_path)), 'installed in %s,' % installed)
 
 
 def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
@@ -77,15 +81,13 @@ def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
         program.chmod(0o755)
     script = (ROOT / 'scripts' / 'in-release').read_text()
     # Debian's tools come first on the path of the scripts.
-    changed = script.replace('[ "$(id -u)" -eq 0 ]', 'PATH="%s:$PATH"\n[ "$(id -u)" -eq 0 ]' %
-                             (tmp_path / 'bin'), 1)
+    changed = script.replace('[ "$(id -u)" -eq 0 ]', 'PATH="%s:$PATH"\n[ "$(id -u)" -eq 0 ]' % (tmp_path / 'bin'), 1)
     assert changed != script
     (tmp_path / 'scripts').mkdir()
     (tmp_path / 'scripts' / 'in-release').write_text(changed)
     (tmp_path / 'scripts' / 'common.sh').write_text((ROOT / 'scripts' / 'common.sh').read_text())
-    done = subprocess.run(['bash', str(tmp_path / 'scripts' / 'in-release'), 'trixie', 'true'],
-                          capture_output=True, text=True, check=False,
-                          env={**os.environ, 'YADEFRAG_ROOTS': str(tmp_path / 'roots')})
+    done = subprocess.run(['bash', str(tmp_path / 'scripts' / 'in-release'), 'trixie', 'true'], capture_output=True,
+                          text=True, check=False, env={**os.environ, 'YADEFRAG_ROOTS': str(tmp_path / 'roots')})
     if 'lets no file system be mounted' in done.stderr:
         pytest.skip('this machine permits no mounts: the server is not asked')
     assert done.returncode == 75 and 'cannot be fetched' in done.stderr
@@ -124,7 +126,7 @@ def test_allAreCheckedWhereTheHistoryIsUnknown(turn, monkeypatch, tmp_path, caps
     assert turn.history('1') == (None, 0)
 
 
-TOOL = project.ROOT / 'pkg' / 'abi' / 'tools' / 'yade_build.py'
+TOOL = ROOT / 'pkg' / 'abi' / 'tools' / 'yade_build.py'
 CONFIG = """suffix='-mine'
 highPrecisionBits         =%(bits)d
 highPrecisionDecimalPlaces=15
@@ -200,20 +202,21 @@ def test_sourcesThatHaveMovedAreAskedFor(tmp_path):
     assert asked(libraries, moved).returncode == 0
 
 
-def found(**given):
-    """CMake's search for the folder of libraries."""
-    return subprocess.run(['cmake', *['-D%s=%s' % item for item in given.items()], '-P',
-                           str(project.ROOT / 'cmake' / 'yade_folder.cmake')], capture_output=True, text=True, check=False)
+def complaint(**given):
+    """Of CMake's search for the folder of libraries."""
+    done = subprocess.run(['cmake', *['-D%s=%s' % item for item in given.items()], '-P',
+                           str(ROOT / 'cmake' / 'yade_folder.cmake')], capture_output=True, text=True, check=False)
+    return ' '.join(done.stderr.split()) if done.returncode else ''
 
 
 def test_wrongPrefixIsNamed(tmp_path):
-    assert 'has 0 installed YADEs' in ' '.join(found(YADE_PREFIX=tmp_path).stderr.split())
+    assert 'has 0 installed YADEs' in complaint(YADE_PREFIX=tmp_path)
     installed(tmp_path)
-    assert found(YADE_PREFIX=tmp_path).returncode == 0
+    assert complaint(YADE_PREFIX=tmp_path) == ''
     (tmp_path / 'lib' / 'yade-other' / 'py' / 'yade').mkdir(parents=True)
     (tmp_path / 'lib' / 'yade-other' / 'py' / 'yade' / 'config.py').touch()
-    assert 'has 2 installed YADEs' in ' '.join(found(YADE_PREFIX=tmp_path).stderr.split())
-    assert 'needs YADE_PREFIX' in ' '.join(found(YADE_SOURCE=tmp_path).stderr.split())
+    assert 'has 2 installed YADEs' in complaint(YADE_PREFIX=tmp_path)
+    assert 'needs YADE_PREFIX' in complaint(YADE_SOURCE=tmp_path)
 
 
 def test_headersAreComparedWithTheFeaturesOfThePackages(monkeypatch):
@@ -222,13 +225,56 @@ def test_headersAreComparedWithTheFeaturesOfThePackages(monkeypatch):
     assert check_source.FEATURES == list(support.NEEDED)
 
 
-def test_theRunningYadeIsAccepted():
-    assert support.describeSurroundings() == ''
-
-
 def test_importComparesAllFeatures(monkeypatch):
+    assert support.describeSurroundings() == ''
     monkeypatch.setattr(support, 'FEATURES', ['LIQMIGRATION', 'OPENMP'])
     assert support.describeMismatch(support.VERSION, 'PrecisionDouble', ['OPENMP', 'LIQMIGRATION']) == ''
     sentence = support.describeMismatch(support.VERSION, 'PrecisionDouble', ['OPENMP', 'SPH'])
     assert 'has no LIQMIGRATION, SPH' in sentence and 'with LIQMIGRATION, no SPH' in sentence
     assert sentence.endswith('must be built again.') and sentence.count('. ') == 0
+
+
+# --- codes
+
+@pytest.fixture(scope='module')
+def rows():
+    """Rows of 500 spheres without friction, where only the order of summation differs."""
+    options = codes.parse(['--scenes', 'packing,stirred', '--sizes', '500', '--codes', 'loop,LIGGGHTS,LAMMPS',
+                           '--friction', '0', '--warm', '5', '--steps', '30', '--repeat', '1'])
+    options.codes = codes.installed(options.codes)
+    return options, codes.measured(options, lambda text: None)
+
+
+def test_positionsAreThoseAndPartsNoMoreThanTheStep(rows, tmp_path):
+    options, found = rows
+    medians = codes.summary(found)
+    for table in (found, codes.rows(medians)):
+        assert [(row['scene'], row['code']) for row in table] == [
+            (scene, name) for scene in ('packing', 'stirred') for name in options.codes]
+    assert max(row['deviation'] for row in found) < 1e-9
+    for row in found:
+        assert 0 <= row['search'] and 0 < row['forces'] and 0 < row['integration']
+        assert row['search'] + row['forces'] + row['integration'] < 1.02 * row['step']
+    codes.plot(str(tmp_path / 'codes.png'), medians, 'here')
+    assert (tmp_path / 'codes.png').stat().st_size > 10000
+
+
+def test_otherMotionIsAnError(monkeypatch):
+    """A code that leaves its spheres where they were is found."""
+    class Still:
+        exists = staticmethod(lambda: True)
+        measure = staticmethod(lambda folder, warm, steps, threads, limit: {})
+
+    monkeypatch.setitem(codes.OTHERS, 'LAMMPS', Still)
+    monkeypatch.setattr(codes.codes_lammps, 'ended', lambda folder: codes.codes_lammps.start(folder)[0]['places'])
+    options = codes.parse('--scenes gas --sizes 500 --codes loop,LAMMPS --warm 5 --steps 5'.split())
+    with pytest.raises(RuntimeError, match='positions of LAMMPS differ by 1 of'):
+        codes.measured(options, lambda text: None)
+
+
+def test_missingCodesAreNamed(monkeypatch, capsys):
+    for module in codes.OTHERS.values():
+        monkeypatch.setattr(module, 'exists', lambda: False)
+    assert codes.installed(['YADE', 'LIGGGHTS', 'LAMMPS']) == ['YADE']
+    assert capsys.readouterr().err.strip() == (
+        'not compared with LIGGGHTS and LAMMPS: not installed (sudo apt-get install liggghts lammps).')

@@ -36,10 +36,6 @@ def packaged(monkeypatch):
 STOCK = ['OPENMP', 'MPI', 'QT5', 'FEMLIKE', 'VTK', 'CGAL']
 
 
-def test_stockYadeIsAccepted():
-    assert support.describeMismatch(support.VERSION, 'PrecisionDouble', STOCK) == ''
-
-
 @pytest.mark.parametrize('version, precision, features, found, needed', [
     ('2022.01a', 'PrecisionDouble', STOCK, 'version 2022.01a', 'version ' + support.VERSION),
     (support.VERSION, 'PrecisionLongDouble', STOCK, 'PrecisionLongDouble', 'PrecisionDouble'),
@@ -54,12 +50,18 @@ def test_otherYadeIsNamedInOneSentence(version, precision, features, found, need
     assert sentence.count('. ') == 0 and sentence.endswith('.') and '\n' not in sentence
 
 
-def test_versionOfAnotherBuildIsNamedAsSuch():
+def test_everyDifferenceIsNamed():
+    """None for the stock YADE; a version for which there are other builds as such; config.py without the fields."""
+    assert support.describeMismatch(support.VERSION, 'PrecisionDouble', STOCK) == ''
     others = [version for version in support.ACCEPTED if version != support.VERSION]
     assert others
     for version in others:
         sentence = support.describeMismatch(version, 'PrecisionDouble', STOCK)
         assert sentence.endswith('for which yadefrag must be built or installed again.')
+    sentence = support.describeMismatch('1.0', 'PrecisionFloat', ['SPH'])
+    assert all(word in sentence for word in ('1.0', 'PrecisionFloat', 'no OPENMP', 'no MPI', 'has', 'SPH'))
+    modules = {'yade.wrapper': None, 'yade.config': types.SimpleNamespace()}
+    assert 'unknown' in support.describeSurroundings(modules)
 
 
 def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
@@ -68,17 +70,6 @@ def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
     sentence = support.describeMismatch('2027.1.0', 'PrecisionDouble', STOCK)
     assert 'never tested with it' in sentence and '2023.02a' in sentence
     assert sentence.endswith('.') and '\n' not in sentence
-
-
-def test_everyDifferenceIsNamed():
-    sentence = support.describeMismatch('1.0', 'PrecisionFloat', ['SPH'])
-    for word in ('1.0', 'PrecisionFloat', 'no OPENMP', 'no MPI', 'has', 'SPH'):
-        assert word in sentence
-
-
-def test_configWithoutTheFieldsIsRefused():
-    modules = {'yade.wrapper': None, 'yade.config': types.SimpleNamespace()}
-    assert 'unknown' in support.describeSurroundings(modules)
 
 
 def test_plainPythonIsReferredToYade():
@@ -108,9 +99,9 @@ def test_yadesOwnClassesAreNotReplaced():
 
 def test_ownCopiesOfEigenCgalAndFmtStayInside():
     """YADE's, compiled with other options, would be called instead."""
-    names = subprocess.run(['nm', '-DC', '--defined-only', _yadefrag.__file__], check=True,
-                           capture_output=True, text=True).stdout.splitlines()
-    names = [line.split(' ', 2)[2] for line in names]
+    lines = subprocess.run(['nm', '-DC', '--defined-only', _yadefrag.__file__], check=True, capture_output=True,
+                           text=True).stdout.splitlines()
+    names = [line.split(' ', 2)[2] for line in lines]
     assert 'PyInit__yadefrag' in names
     assert any(name.startswith('typeinfo for yade') for name in names), 'one with YADE\'s'
     # A template of ours, or of std at -O1, may return one of Eigen's types: its name then begins with that type.
@@ -136,14 +127,10 @@ def compiled(tmp_path, version):
 
 def declared():
     """{(type, member)} of the declarations, but for bytes that stand for what is not touched."""
-    found = set()
-    for path in ABI.glob('*.hpp'):
-        text = re.sub(r'//.*', '', path.read_text())
-        for kind, body in re.findall(r'^(?:class|struct) (\w+)\b[^;{]*\{(.*?)^\};', text, re.M | re.S):
-            body = re.sub(r'\{[^{}]*\}', ';', body)
-            for member in re.findall(r'^  [\w:<>, *&]+? (\w+)(?:\[\d\])?;$', body, re.M):
-                found.add((kind, member))
-    return found
+    text = re.sub(r'//.*', '', '\n'.join(path.read_text() for path in ABI.glob('*.hpp')))
+    bodies = re.findall(r'^(?:class|struct) (\w+)\b[^;{]*\{(.*?)^\};', text, re.M | re.S)
+    return {(kind, member) for kind, body in bodies for member in re.findall(
+        r'^  [\w:<>, *&]+? (\w+)(?:\[\d\])?;$', re.sub(r'\{[^{}]*\}', ';', body), re.M)}
 
 
 def test_everyDeclaredMemberIsChecked(tmp_path, monkeypatch):
@@ -167,15 +154,13 @@ def test_everyDeclaredMemberIsChecked(tmp_path, monkeypatch):
 
 
 def test_acceptedVersionsAreThoseThatWereRun():
-    assert support.ACCEPTED == {version: facts['system'] for version, facts in KNOWN.items()
-                                if facts['run']}
+    assert support.ACCEPTED == {version: facts['system'] for version, facts in KNOWN.items() if facts['run']}
     assert config.version in support.ACCEPTED and support.VERSION == config.version
 
 
 def demangled(names):
-    done = subprocess.run(['c++filt'], input='\n'.join(names), capture_output=True, text=True,
-                          check=True)
-    return done.stdout.splitlines()
+    return subprocess.run(['c++filt'], input='\n'.join(names), capture_output=True, text=True,
+                          check=True).stdout.splitlines()
 
 
 class Symbol(ctypes.Structure):
@@ -205,8 +190,7 @@ def test_virtualFunctionsOfTheRunningYadeAreTheMeasuredOnes():
             names += runningTable(name, entry['virtuals'])
         except ValueError:  # a class without a table of its own in the libraries
             continue
-        wanted += [(name, at, function) for at, functions in entry['virtuals'].items()
-                   for function in functions]
+        wanted += [(name, at, function) for at, functions in entry['virtuals'].items() for function in functions]
     assert len(names) == len(wanted) > 500
     compared = 0
     for (name, at, function), spelled in zip(wanted, demangled(names)):
@@ -225,8 +209,7 @@ def test_theDeclarationsFitEveryVersion(version, tmp_path):
     done, dump = compiled(tmp_path, version)
     assert done.returncode == 0, done.stderr[-2000:]
     tables = check_virtuals.readTables(dump.read_text())
-    assert list(check_virtuals.differences(tables, KNOWN[version]['classes'],
-                                           check_virtuals.derivedFrom())) == []
+    assert list(check_virtuals.differences(tables, KNOWN[version]['classes'], check_virtuals.derivedFrom())) == []
 
 
 @pytest.mark.parametrize('tables, line', [
@@ -237,10 +220,8 @@ def test_theDeclarationsFitEveryVersion(version, tmp_path):
 ])
 def test_anotherOrderOfVirtualFunctionsIsFound(tables, line):
     measured = {'Shape': {'virtuals': {'0': ['~', '~', 'getVolume', 'getColor']}}}
-    assert list(check_virtuals.differences({'Shape': measured['Shape']['virtuals']}, measured,
-                                           {'Shape'})) == []
-    assert any(line in found
-               for found in check_virtuals.differences({'Shape': tables}, measured, {'Shape'}))
+    assert list(check_virtuals.differences({'Shape': measured['Shape']['virtuals']}, measured, {'Shape'})) == []
+    assert any(line in found for found in check_virtuals.differences({'Shape': tables}, measured, {'Shape'}))
 
 
 def test_theDeclarationsFitTheirOwnVersionAlone():

@@ -8,6 +8,7 @@ import builtins
 import hashlib
 import inspect
 import os
+import pathlib
 import random
 import re
 import sys
@@ -51,9 +52,8 @@ def scene(moment):
         O.bodies.append(body)
     collider = w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()])
     O.engines = [w.ForceResetter(), collider, w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        fe, w.NewtonIntegrator()]
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+        [w.Law2_ScGeom_FrictPhys_CundallStrack()]), fe, w.NewtonIntegrator()]
     O.dt = .5 * fe.criticalTimeStep()
     if moment != 'before':
         for _ in range(3):
@@ -67,8 +67,7 @@ def state(fe):
     for array in (fe.nodes, fe.velocities, fe.triangles, fe.loads, fe._reference, fe.components, fe.masses,
                   fe.fragmentOf, fe.contactForces, *fe.surfaces):
         digest.update(array.tobytes())
-    bodies = [b and (tuple(b.state.pos), tuple(b.state.vel), repr(b.shape.dict()), b.groupMask)
-              for b in O.bodies]
+    bodies = [b and (tuple(b.state.pos), tuple(b.state.vel), repr(b.shape.dict()), b.groupMask) for b in O.bodies]
     engines = [(type(e).__name__, repr({n: v for n, v in e.dict().items() if ' at 0x' not in repr(v)}))
                for e in O.engines if not isinstance(e, w.PyRunner)]
     materials = [repr(m.dict()) for m in O.materials]
@@ -83,12 +82,9 @@ def exampleFiles(folder):
     table = yadefrag.TradeoffTable([tradeoff_table.TradeoffRow({'k': 1}, 'ok', 1., 1., .1, .1, 10, [1.], [1.]),
                                     tradeoff_table.TradeoffRow({'k': 2}, 'ok', 2., 2., .01, .1, 10, [2.], [2.])])
     table.csv(folder + '/table.csv')
-    with open(folder + '/plate', 'w') as plate:
-        plate.write('0 0\n1 0\n1 1\n')
-    with open(folder + '/plate.csv', 'w') as plate:
-        plate.write('0, 0\n1, 0\n1, 1\n')
-    with open(folder + '/mesh.inp', 'w') as mesh:
-        mesh.write('*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')
+    for name, text in (('plate', '0 0\n1 0\n1 1\n'), ('plate.csv', '0, 0\n1, 0\n1, 1\n'),
+                       ('mesh.inp', '*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')):
+        pathlib.Path(folder, name).write_text(text)
     return table
 
 
@@ -156,8 +152,7 @@ def ownClasses():
 
 
 def settable(cls):
-    return [name for name, value in inspect.getmembers(cls)
-            if isinstance(value, property) and value.fset is not None]
+    return [name for name, value in inspect.getmembers(cls) if isinstance(value, property) and value.fset is not None]
 
 
 def presets(cls):

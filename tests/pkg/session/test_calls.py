@@ -1,19 +1,23 @@
-"""Calls by position, messages that many bodies have, and what is written about a refused step. Curves are given and returned
-alike; what is refused is shown in short; attributes of a wrong kind. What is accepted: test_forms.py."""
+"""Calls by position, messages that many bodies have, and what is written about a refused step. Curves are given and
+returned alike; what is refused is shown in short. What a script does to the bodies of an FESolver behind its back:
+refused, or without harm; what cannot be copied whole is not copied at all. What is accepted: test_forms.py."""
 import builtins
-import subprocess
+import copy
+import gc
+import pickle
 import warnings
+import weakref
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import impact
-from project import yadeCommand
-from yade import wrapper as w
+from fe_impact import impact as brittleImpact
+from fe_scene import heard, impact, O, steps
+from project import inYade
+from yade import utils, wrapper as w
 from yadefrag import arguments
 
-O = builtins.O
 kSquare = yadefrag.rectangle((0, 0), (1, 1))
 
 
@@ -25,7 +29,7 @@ def solver(**settings):
 
 @pytest.mark.parametrize('arguments', [(kSquare, .5, 's'), (kSquare, (), .5, 's'), (kSquare, lambda x, y: .5, 's'),
                                        (kSquare, [[(.2, .2), (.4, .2), (.3, .4)]], .5, 's')])
-def test_polygonsByPosition(arguments):
+def test_bodiesByPosition(arguments):
     found = solver()
     found.addPolygon(*arguments)
     by = ('size', 'material') if len(arguments) == 3 else ('holes', 'size', 'material')
@@ -34,17 +38,12 @@ def test_polygonsByPosition(arguments):
     other = solver()
     other.addPolygon(arguments[0], **dict(zip(by, arguments[1:])))
     assert (nodes == other.nodes).all() and len(nodes) > 4
-
-
-def test_trianglesByPosition():
-    found = solver()
-    assert found.addTriangles(*yadefrag.rectangleMesh((0, 0), (1, 1), 2, 2), 's') == 0
+    assert other.addTriangles(*yadefrag.rectangleMesh((2, 0), (3, 1), 2, 2), 's') == 1
 
 
 def wall(count, fe):
     """`count` bricks with a mesh too coarse for their fracture energy."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter('always')
+    with warnings.catch_warnings(record=True, action='always') as caught:
         for k in range(count):
             fe.addPolygon(yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)), .3 + .001 * k, 's')
         O.engines, O.dt = [fe], 1e-9
@@ -69,13 +68,11 @@ def test_aMessageOfManyBondsIsGivenOnceWithTheirNumber():
     fe = w.FESolver()
     for k in range(4):
         fe.addPolygon(yadefrag.rectangle((k, 0), (k + 1, 1)), .5, 'm')
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter('always')
+    with heard() as said:
         for k in range(3):
             assert fe.bond(k, k + 1, 5e6, 100) == 2
         O.engines, O.dt = [fe], 1e-7
         yadefrag.runSteps(1)
-    said = [str(one.message) for one in caught]
     assert len(said) == 2 and said[0].startswith('bond: energy is 100 J/m² of the bond between the bodies 0 and 1 at')
     assert said[1].startswith('3 bonds have this message') and said[1].endswith('the bonds 0-1, 1-2, 2-3.')
 
@@ -105,13 +102,10 @@ O.wait()
 """
 
 
-def test_aRefusedStepIsToldOnce(folder):
+def test_aRefusedStepIsToldOnce(tmp_path):
     """Only a run in the background, whose error nobody gets, has YADE's own lines."""
-    script = folder + '/refused.py'
-    with open(script, 'w') as out:
-        out.write(kRefused)
-    done = subprocess.run([*yadeCommand(), script], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=120)
+    (tmp_path / 'refused.py').write_text(kRefused)
+    done = inYade(tmp_path / 'refused.py', timeout=120)
     foreground, _, _ = done.stdout.partition('FATAL')
     lines = [line for line in foreground.splitlines() if 'time step' in line]
     assert len(lines) == 3 and all(line.startswith('caught') for line in lines), done.stdout
@@ -150,8 +144,7 @@ def test_curvesAreReturnedAsGiven(cls, attribute, values):
 # --- what is shown
 
 kLong = [np.zeros((1000, 1000)), list(range(10**5)), 'x' * 10**5, 10**5000, -10**5000, b'\xff' * 1000,
-         {i: i for i in range(1000)}, [[[[[[1] * 9] * 9] * 9] * 9]],
-         np.zeros(5, dtype=[('a', 'f8')]), '\ud800\n\x00']
+         {i: i for i in range(1000)}, [[[[[[1] * 9] * 9] * 9] * 9]], np.zeros(5, dtype=[('a', 'f8')]), '\ud800\n\x00']
 
 
 @pytest.mark.parametrize('value', kLong, ids=lambda v: type(v).__name__)
@@ -160,21 +153,18 @@ def test_valuesAreShownInShort(value):
     assert 0 < len(text) <= arguments.LONGEST and text.isprintable()
     for call in (lambda: yadefrag.runSteps(value), lambda: yadefrag.circle((0, 0), value),
                  lambda: yadefrag.rectangle(value, value), lambda: yadefrag.readPolygon(value),
-                 lambda: w.FESolver().addPolygon(kSquare, size=value, material='m'),
-                 lambda: w.FESolver(passes=value), lambda: w.FESolver(gravity=value),
-                 lambda: yadefrag.tradeoff(None, value, None, duration=value)):
+                 lambda: w.FESolver().addPolygon(kSquare, size=value, material='m'), lambda: w.FESolver(passes=value),
+                 lambda: w.FESolver(gravity=value), lambda: yadefrag.tradeoff(None, value, None, duration=value)):
         with pytest.raises((ValueError, TypeError)) as error:
             call()
         assert len(str(error.value)) <= 300
 
 
-def test_numbersOfNumPyAreShownAsPythons():
+def test_numbersOfNumPyAndABrokenReprAreShown():
     """NumPy 2 has np.float64(1.5) as repr."""
     assert arguments.shown((np.float64(1.5), np.int32(2))) == '(1.5, 2)'
     assert arguments.shown([np.bool_(True)]) == '[True]'
 
-
-def test_aBrokenReprIsNoReasonToFail():
     class Broken:
         def __repr__(self):
             raise KeyError('no text')
@@ -203,3 +193,152 @@ def test_aRunWithinAStepIsRefused():
     assert len(answers) == 4
     O.engines = O.engines[:-1]
     assert yadefrag.runSteps(2) == 2
+
+
+# --- clumps and single pieces
+
+def addClump():
+    """Numbers of two spheres, and of their clump."""
+    clump, ids = O.bodies.appendClumped([utils.sphere((9, 0, 0), 1), utils.sphere((9, 1, 0), 1)])
+    return ids, clump
+
+
+@pytest.mark.parametrize('kind', [list, tuple, iter, np.array, lambda ids: range(2), set,
+                                  lambda ids: (i for i in ids), lambda ids: np.array(ids)[::1],
+                                  lambda ids: map(int, ids), lambda ids: dict.fromkeys(ids)])
+def test_clumpsAreRefused(kind):
+    """YADE itself would end the process, for want of a mass."""
+    impact('LebesgueCollider')
+    _, clump = addClump()
+    for call in (lambda: O.bodies.clump(kind([0, 1])), lambda: O.bodies.addToClump(kind([3, 2]), clump)):
+        with pytest.raises(ValueError, match='part of the boundary of body 0 .* in a clump'):
+            call()
+    O.step()
+
+
+def test_piecesAreNoMembersOfClumps():
+    impact('LebesgueCollider')
+    ids, clump = addClump()
+    piece, own = O.bodies[0], O.bodies[clump]
+    for call in (lambda: O.bodies.deleteClumpMember(own, piece), lambda: O.bodies.deleteClumpBody(piece),
+                 lambda: O.bodies.deleteClumpMember(piece, O.bodies[ids[0]])):
+        with pytest.raises(ValueError, match='part of the boundary of body 0 .* in a clump'):
+            call()
+    for id in (0, np.int64(0)):
+        with pytest.raises(ValueError, match='another one cannot replace it'):
+            O.bodies.insertAtId(utils.sphere((9, 5, 0), 1), id)
+        with pytest.raises(ValueError, match='cannot be erased alone'):
+            O.bodies.erase(id)
+    O.step()
+    assert len(O.bodies) > 3 and O.bodies[0].id == 0
+
+
+def test_clumpsOfOthersAreMadeAsBefore():
+    impact('LebesgueCollider')
+    ids, clump = addClump()
+    other = O.bodies.append(utils.sphere((9, 2, 0), 1))
+    O.bodies.addToClump([other], clump)
+    assert O.bodies[other].clumpId == clump
+    O.bodies.releaseFromClump(other, clump)
+    another = O.bodies.append(utils.sphere((9, 4, 0), 1))
+    made = O.bodies.clump(i for i in (other, another))
+    assert O.bodies[another].clumpId == made
+    O.bodies.deleteClumpMember(O.bodies[clump], O.bodies[ids[0]])
+    O.bodies.deleteClumpBody(O.bodies[made])
+
+
+# --- what a body is made of
+
+@pytest.mark.parametrize('finder', [None, 'LebesgueCollider', 'InsertionSortCollider'])
+@pytest.mark.parametrize('name, value', [
+    ('mat', lambda: None), ('shape', lambda: None), ('shape', lambda: w.Sphere(radius=1)), ('bound', lambda: None),
+    ('mat', lambda: w.FrictMat()), ('state', lambda: None), ('state', w.State)])
+def test_partsAreTakenAway(name, value, finder):
+    """From all pieces, or from the first, as cracks begin: the step succeeds or reports what is wrong,
+    and so does loading what was saved."""
+    for count in (1, 10**6):
+        O.reset()
+        solver = brittleImpact(finder)
+        steps(120)
+        before = solver.numCracks
+        sentence = None
+        try:
+            for body in [b for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)][:count]:
+                setattr(body, name, value())
+            steps(100)
+        except (RuntimeError, ValueError) as error:
+            sentence = str(error)
+        assert solver.numCracks > before or 'must not replace it' in sentence
+        assert (sentence is None) <= (name not in ('state', 'shape')) and (name != 'bound' or sentence is None)
+        if sentence is None:
+            solver.removeBody(0)
+            O.saveTmp()
+            O.loadTmp()
+            try:
+                steps(3)
+            except (RuntimeError, ValueError) as error:
+                assert 'must not replace it' in str(error)
+
+
+# --- copies
+
+COPIES = [copy.copy, copy.deepcopy, lambda thing: pickle.loads(pickle.dumps(thing))]
+
+
+@pytest.mark.parametrize('make', COPIES)
+def test_aSolverWithBodiesIsNotCopied(make):
+    solver = impact()
+    with pytest.raises(TypeError, match='cannot be copied or pickled.*O.save keeps them'):
+        make(solver)
+    steps(3)
+
+
+@pytest.mark.parametrize('make', COPIES)
+@pytest.mark.parametrize('thing', [
+    lambda: w.FESolver(damping=3, passes=2), lambda: w.FEMat(young=3e7, poisson=.1),
+    lambda: w.BrittleFEMat(young=3e7, tensileStrength=5, seed=7), lambda: w.SurfaceSegment(halo=.2),
+    lambda: w.LebesgueCollider([w.Bo1_Sphere_Aabb()], verletDist=.3),
+    lambda: w.Ig2_Sphere_SurfaceSegment_ScGeom(label='a'), lambda: w.Bo1_SurfaceSegment_Aabb()])
+def test_allElseIsCopiedWhole(make, thing):
+    one = thing()
+    other = make(one)
+    assert type(other) is type(one) and other is not one
+    values, copied = one.dict(), other.dict()
+    values.pop('boundDispatcher', None), copied.pop('boundDispatcher', None)
+    assert values == copied
+
+
+# --- memory
+
+@pytest.mark.parametrize('collider', [None, 'LebesgueCollider'])
+def test_resetFreesTheSolver(collider):
+    def made():
+        solver = impact(collider)
+        steps(3)
+        O.engines = list(O.engines)
+        O.engines = O.engines[:1] + [w.PyRunner(label='named')] + O.engines[1:]
+        steps(1)
+        return [weakref.ref(engine) for engine in O.engines]
+    engines = made()
+    assert all(engine() for engine in engines)
+    O.reset()
+    gc.collect()
+    assert [engine() for engine in engines if not isinstance(engine(), w.PyRunner)] == [None] * (len(engines) - 1)
+
+
+def test_whatWasInAListIsFreed():
+    """YADE alone keeps what is in a list of bodies, engines or functors permanently."""
+    def made():
+        functors = ([w.Bo1_Sphere_Aabb()], [w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                    [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+        listed = [w.Body(), w.Body(), *(functor for one in functors for functor in one)]
+        O.bodies.append(listed[:1])
+        O.bodies.append(tuple(listed[1:2]))
+        O.engines = [w.InsertionSortCollider(functors[0]), w.InteractionLoop(*functors[1:])]
+        return [weakref.ref(item) for item in listed + O.engines]
+    O.reset()
+    items = made()
+    assert all(item() for item in items)
+    O.reset()
+    gc.collect()
+    assert [item() for item in items] == [None] * len(items)

@@ -1,22 +1,19 @@
 """Runs in the background: reads see one state, others may not change the scene, saves are whole."""
 import builtins
+import concurrent.futures
 import os
-import subprocess
 import threading
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import areSame, brittle, impact, state, steps
+from fe_impact import areSame, brittle, impact, O, state, steps
 from fe_scene import solverOfScene
-from project import yadeCommand
+from project import inYade
 from yade import wrapper as w
 from yadefrag import _yadefrag
 from yadefrag.fe.contents import betweenSteps
-
-kHere = os.path.dirname(os.path.abspath(__file__))
-O = builtins.O
 
 
 def cracking():
@@ -37,17 +34,9 @@ def running():
 
 def inThread(call):
     """What `call` returns or raises in another thread; this one waits meanwhile."""
-    answer = []
-
-    def work():
-        try:
-            answer.append(call())
-        except Exception as error:
-            answer.append(error)
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    return answer[0]
+    with concurrent.futures.ThreadPoolExecutor(1) as executor:
+        future = executor.submit(call)
+        return future.exception() or future.result()
 
 
 # --- reads
@@ -125,9 +114,8 @@ kSquare = yadefrag.rectangle((2, 2), (3, 3))
 
 def changes(solver):
     loads = solver.loads
-    return [lambda: solver.addPolygon(kSquare, size=.5, material=brittle()),
-            lambda: solver.removeBody(0), lambda: setattr(solver, 'loads', loads),
-            lambda: solver.prescribe([0], vx=1)]
+    return [lambda: solver.addPolygon(kSquare, size=.5, material=brittle()), lambda: solver.removeBody(0),
+            lambda: setattr(solver, 'loads', loads), lambda: solver.prescribe([0], vx=1)]
 
 
 def test_nothingChangesWhileItRuns(running):
@@ -167,9 +155,8 @@ def test_aPyRunnerMayChangeWhatRuns():
     def addOne():
         if len(added) < 2:
             O.pause()
-            added.append(solver.addPolygon(yadefrag.rectangle((2 + 2 * len(added), 0),
-                                                              (3 + 2 * len(added), 1)),
-                                           size=.5, material=brittle()))
+            left = 2 + 2 * len(added)
+            added.append(solver.addPolygon(yadefrag.rectangle((left, 0), (left + 1, 1)), size=.5, material=brittle()))
     builtins.addOne = addOne
     O.engines = [w.PyRunner(command='addOne()', iterPeriod=1)] + O.engines
     try:
@@ -253,10 +240,50 @@ def test_savedInTheBackground():
 
 # --- ends
 
+kScene = '''
+import sys
+import time
+
+import yadefrag
+from yade import utils, wrapper as w
+
+kind = sys.argv[1]
+if kind == 'moved':  # bodies and contacts are moved in memory, with Python's lock
+    O.bodies.append([utils.sphere((i % 14 * .97, i // 14 % 14 * .97, i // 196 * .97), .5) for i in range(14 ** 3)])
+    O.engines = [w.ForceResetter(), w.InsertionSortCollider([w.Bo1_Sphere_Aabb()]),
+                 w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                             [w.Law2_ScGeom_FrictPhys_CundallStrack()]), w.CurveIntegrator(damping=.2)]
+    O.dt = 1e-4
+    O.run()
+    while O.iter < 31:
+        pass
+    print('@@@ end', O.iter, flush=True)
+    O.exitNoBacktrace()
+material = w.BrittleFEMat(young=1e7, poisson=.3, density=1000, tensileStrength=1e4)
+solver = w.FESolver()
+solver.addTriangles(*yadefrag.rectangleMesh((0, 0), (1, .5), 16, 8), material=material,
+                    velocity=lambda x, y: (20 * (x - .5), 20 * (y - .25)))
+O.engines = [w.ForceResetter(), solver]
+if kind != 'alone':
+    O.engines = O.engines + [w.PyRunner(command='solver.numCracks', iterPeriod=1)]
+O.dt = .5 * solver.criticalTimeStep()
+O.run()
+while O.iter < 3:
+    time.sleep(.001)
+if kind == 'reset':
+    for _ in range(20):
+        O.reset()
+        O.engines = [w.PyRunner(command='solver.numCracks', iterPeriod=1)]
+        O.run()
+print('@@@ end', O.iter, flush=True)
+if kind == 'exit':
+    O.exitNoBacktrace()
+'''
+
+
 @pytest.mark.parametrize('kind', ['alone', 'PyRunner', 'reset', 'exit', 'moved'])
-def test_scriptEndsWhileItRuns(kind):
-    script = os.path.join(kHere, 'background_scene.py')
-    done = subprocess.run([*yadeCommand(), script, kind], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=60)
+def test_scriptEndsWhileItRuns(kind, tmp_path):
+    (tmp_path / 'scene.py').write_text(kScene)
+    done = inYade(tmp_path / 'scene.py', kind, timeout=60)
     assert done.returncode == 0, done.stdout[-2000:]
     assert '@@@ end' in done.stdout

@@ -1,12 +1,11 @@
-"""Each argument accepts every form that its docstring states, with the same result, and refuses what is none. Thousands of
-calls of all that is public with wrong values, seeded, each batch in a yade of its own (YADEFRAG_API_SECONDS: for how long,
-30).
+"""Each argument accepts every form that its docstring states, with the same result, and refuses what is none.
+Thousands of calls of all that is public with wrong values, seeded, each batch in a yade of its own
+(YADEFRAG_API_SECONDS: for how long, 30).
 
-forms.py has the forms; a call of api_calls.py that succeeds has the other arguments.
-"""
-import builtins
+api_values.py has the forms; a call of api_calls.py that succeeds has the other arguments."""
 import inspect
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -17,14 +16,14 @@ import numpy as np
 import pytest
 
 import api_calls
-import forms
+import api_values as forms
 import yadefrag
+from api_calls import O
 from project import yadeCommand
 from yade import wrapper as w
 from yadefrag.arguments import shown
 from yadefrag.studies import ensemble_runs, tradeoff_grid
 
-O = builtins.O
 # Calls of the same function with arguments that need each other: what replaces those of `right`.
 kVariants = dict(
     plotMesh=('plotMesh', {}, dict(file=None)),
@@ -43,8 +42,7 @@ def made(name, folder):
     shutil.rmtree(folder, ignore_errors=True)
     os.mkdir(folder)
     api_calls.exampleFiles(folder)
-    with open(folder + '/numbers', 'w') as file:
-        file.write('1 2\n')
+    pathlib.Path(folder, 'numbers').write_text('1 2\n')
     fe = api_calls.scene('between')
     function, without, more = kVariants.get(name, (name, {}, {}))
     right = {**api_calls.right(fe, folder).get(function, {}), **kMore.get(function, {}), **without, **more}
@@ -92,8 +90,8 @@ def outcome(name, argument, place, folder):
     seen = [result, repr(jobs)]
     for file in sorted(os.listdir(folder)):
         if file not in before or file == 'run.csv':
-            with open(folder + '/' + file, 'rb') as one:
-                seen.append(re.sub(rb'<item>(isoTime|id|d.id|id.d)=.*|<speed>.*', b'', one.read()))
+            content = pathlib.Path(folder, file).read_bytes()
+            seen.append(re.sub(rb'<item>(isoTime|id|d.id|id.d)=.*|<speed>.*', b'', content))
     return seen
 
 
@@ -107,12 +105,14 @@ def cases():
 def restored(monkeypatch):
     monkeypatch.setattr(tradeoff_grid, '_runAll', None)
     monkeypatch.setattr(ensemble_runs, '_run', None)
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore')
+    with warnings.catch_warnings(action='ignore'):
         yield
 
 
-@pytest.mark.parametrize('name, argument', cases(), ids=lambda v: v)
+everyArgument = pytest.mark.parametrize('name, argument', cases(), ids=lambda v: v)
+
+
+@everyArgument
 def test_everyFormIsAccepted(name, argument, folder):
     folder += '/own'
     sizes = [len(group) for group in made(name, folder)[3][argument]]
@@ -122,7 +122,7 @@ def test_everyFormIsAccepted(name, argument, folder):
             assert outcome(name, argument, (group, k), folder) == first, 'form %d of group %d' % (k, group)
 
 
-@pytest.mark.parametrize('name, argument', cases(), ids=lambda v: v)
+@everyArgument
 def test_whatIsNoFormIsRefused(name, argument, folder):
     fe, call, right, groups = made(name, folder + '/own')
     hasNone = any(form is None for group in groups[argument] for form in group)
@@ -176,18 +176,16 @@ kLimit = 300  # s for a batch
 
 def batch(seed, log):
     """(numbers of calls that succeeded and were refused, list of what was found)."""
-    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'api_calls.py')
+    script = pathlib.Path(__file__).with_name('api_calls.py')
     ended = 'it hung'
     try:
-        run = subprocess.run([*yadeCommand(), script, str(seed), str(kCalls), log], capture_output=True,
+        run = subprocess.run([*yadeCommand(), str(script), str(seed), str(kCalls), log], capture_output=True,
                              timeout=kLimit, text=True, errors='replace')
         ended = 'the process ended with %d: %s' % (run.returncode, run.stderr[-500:])
     except subprocess.TimeoutExpired:
         pass
-    with open(log, errors='replace') as file:
-        lines = file.read().splitlines()
-    found = ['%s -> %s' % (call, line) for call, line in zip(lines, lines[2:])
-             if line.startswith('FOUND')]
+    lines = pathlib.Path(log).read_text(errors='replace').splitlines()
+    found = ['%s -> %s' % (call, line) for call, line in zip(lines, lines[2:]) if line.startswith('FOUND')]
     end = re.fullmatch(r'END (\d+) succeeded, (\d+) refused', lines[-1] if lines else '')
     if not end:
         found.append('%s -> %s' % (lines[-1] if lines else 'no call', ended))

@@ -1,6 +1,5 @@
 """One Ctrl-C ends a script's run after a whole step: loops of runs, too, in the main thread and in others; an error of
 a step ends it with its own sentence."""
-
 import builtins
 import os
 import signal

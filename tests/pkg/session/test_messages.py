@@ -3,20 +3,16 @@
 A cause and a remedy build a scene and run it; the cause must give the message, by an exception or in fe.warnings, the
 remedy must not. docs/checked.md has the thresholds.
 """
-import builtins
 import math
 import random
 import re
-import warnings
 
 import pytest
 
-from fe_scene import fe, ready
+from fe_scene import fe, heard, O, ready
 import yadefrag
 from yade import utils
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def ran(solver, steps, each=None):
@@ -33,15 +29,14 @@ def ran(solver, steps, each=None):
 
 def reported(scene, mayFail=True):
     """All messages of a scene: returned ones, Python's warnings, and that of the exception that ended it."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter('always')
+    with heard() as texts:
         try:
             found = list(scene() or [])
         except (RuntimeError, ValueError) as error:
             if not mayFail:
                 raise
             found = [str(error)]
-    return found + [str(one.message) for one in caught]
+    return found + texts
 
 
 def assertAdviceHelps(pattern, cause, remedy):

@@ -1,18 +1,15 @@
 """Messages about cracks, spheres and rigid bodies, the order of engines, adding bodies and saving: for each the
 scene that provokes it, and the same scene with its advice followed, as in test_messages.py."""
-import builtins
 import math
 import re
 
 import pytest
 
 import yadefrag
-from fe_scene import fe, ready, throwBall
+from fe_scene import fe, O, ready, throwBall
 from test_messages import advised, assertAdviceHelps, ran, reported, steel
 from yade import utils
 from yade import wrapper as w
-
-O = builtins.O
 
 
 def number(sentence, words):
@@ -149,8 +146,7 @@ def box(mass=100, damping=0., isFirst=False, speed=3, steps=100):
 
 def rested(most):
     solver = fe(gravity=(0, -1))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m',
-                      fixed=lambda x, y: y < 1e-9)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', fixed=lambda x, y: y < 1e-9)
     ready(solver, .5)
     assert solver.relax(most=most) >= 5
 

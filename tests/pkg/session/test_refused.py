@@ -1,6 +1,5 @@
 """What a script gives wrongly is refused with one sentence that names the argument, and nothing has changed: tables by
 argument; more of them in test_refused_values.py. Files have theirs in test_file_errors.py, steps in test_messages.py."""
-import builtins
 import math
 import warnings
 
@@ -8,10 +7,9 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, impact, reloaded, run, steps
+from fe_scene import fe, finder, heard, impact, O, reloaded, run, steps
 from yade import wrapper as w
 
-O = builtins.O
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
@@ -318,8 +316,7 @@ def test_namesThatDoNotExist():
         made.dampng = 3
     with pytest.warns(UserWarning, match="^FESolver has no attribute 'x': it is stored"):
         made.x = 3
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         made.damping, made.label, made.dead = 3, 'fe', False
 
 
@@ -372,8 +369,7 @@ def test_placesWithoutNodesAreReported(call, kind):
     run(made, finder('LebesgueCollider'))
     left = lambda x, y: x < 1e-9
     numbers = np.flatnonzero([left(x, y) for x, y in made.nodes])
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
+    with warnings.catch_warnings(action='error'):
         call(made, left)
     made.prescribe(numbers)
     steps(3)
@@ -384,10 +380,9 @@ def test_placesWithoutNodesAreReported(call, kind):
 
 
 def told(call):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter('always')
+    with heard() as texts:
         call()
-    return [str(one.message) for one in caught]
+    return texts
 
 
 @pytest.mark.parametrize('low', [-1, 2])

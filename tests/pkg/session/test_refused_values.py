@@ -1,6 +1,5 @@
 """What is refused, as in test_refused.py: constants of materials, curves, what a body is added with, and calls of
 functions and methods for bodies that are there. The patterns are those of `re`."""
-import builtins
 import math
 import re
 
@@ -8,12 +7,11 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import FAILS, STEEL
+from fe_impact import FAILS, O, STEEL
 from fe_scene import fe, run, steps
 from test_refused import sentenceOf
 from yade import wrapper as w
 
-O = builtins.O
 INF, NAN = math.inf, math.nan
 
 # --- constants of materials: {what: (class, constants that are accepted, [(wrong ones, sentence)])}

@@ -1,6 +1,5 @@
 """What must not change a run, in every scene that something happens in: saving and loading, the number of threads, steps
 that are refused, the collider. All that moves, and all that FESolver keeps, has the same bits."""
-import builtins
 import math
 
 import numpy as np
@@ -8,11 +7,10 @@ import pytest
 
 import fe_impact
 import yadefrag
-from fe_scene import blow, fe, finder, impact, run, solverOfScene, throwBall
+from fe_scene import blow, fe, finder, impact, O, run, solverOfScene, throwBall
 from yade import utils
 from yade import wrapper as w
 
-O = builtins.O
 kArrays = ('nodes', 'velocities', 'masses', 'triangles', 'fragmentOf', 'stress', 'plasticStrain', 'temperature',
            'damage')
 kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'numActives', 'maxPenetration', 'dropped', 'warnings', 'time',

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ import pytest
 import study_scenes as scenes
 import project
 import yadefrag
-from project import ROOT, yadeCommand
+from project import inYade, ROOT
 from yadefrag import EnsembleTable
 from yadefrag.studies import ensemble_runs as tool
 from yadefrag.studies import run_in_yade, runs
@@ -37,6 +38,10 @@ with open('%g.txt' % speed, 'w') as out:
 '''
 
 
+def withoutPath():
+    return {k: v for k, v in os.environ.items() if k != 'PYTHONPATH'}
+
+
 def together(scene, wanted, measure=scenes.draw, **more):
     return tool.ensemble(scene, wanted, measure, **{**dict(duration=scenes.DURATION, workers=2), **more})
 
@@ -53,9 +58,9 @@ def test_runsOfSeedsAndTables(folder):
     assert [row.value for row in table.rows] == [drawn(k) for k in range(3)]
     assert all(row.result == 'ok' and row.steps > 0 and row.wall > 0 for row in table.rows)
     assert sorted(os.listdir(folder)) == ['a.csv', 'a.png']
-    with open(folder + '/a.csv') as lines:
-        assert next(lines).strip() == 'seed,result,value,steps,wall,message,seconds,warnings'
-        assert next(lines).startswith('0,ok,"[%r' % drawn(0)[0])
+    lines = Path(folder, 'a.csv').read_text().splitlines()
+    assert lines[0] == 'seed,result,value,steps,wall,message,seconds,warnings'
+    assert lines[1].startswith('0,ok,"[%r' % drawn(0)[0])
     assert str(table).splitlines()[:3] == ['Draws'] + [
         'seed=%d: %.6g on average of %d; %.3g s, %.4g s per simulated second' % (
             k, np.mean(drawn(k)), len(drawn(k)), table.rows[k].seconds, table.rows[k].wall) for k in range(2)]
@@ -81,6 +86,12 @@ def test_whatFailsIsARow():
     assert line['runs'] == 1 and line['failed'] == 4 and math.isnan(line['low'])
 
 
+def ended(how):
+    future = concurrent.futures.Future()
+    how(future)
+    return future
+
+
 def test_goesOnWhereItStopped(folder, monkeypatch):
     """The third run is interrupted; later runs do what is missing, and no run twice."""
     monkeypatch.setenv('YADEFRAG_COUNT', folder + '/count')
@@ -94,9 +105,7 @@ def test_goesOnWhereItStopped(folder, monkeypatch):
             if not self.left:
                 raise KeyboardInterrupt
             self.left -= 1
-            future = concurrent.futures.Future()
-            future.set_result(function(*args))
-            return future
+            return ended(lambda future: future.set_result(function(*args)))
 
     # What is submitted but not taken counts as not done: runs are taken after the last is submitted.
     first = together(scenes.counted, [0, 1], scenes.same, resume=file, executor=Impatient())
@@ -108,10 +117,8 @@ def test_goesOnWhereItStopped(folder, monkeypatch):
         out.write('{"of": {"setting"')  # a line that was cut
     last = together(scenes.counted, [0, 1, 2, 1], scenes.same, resume=file)
     assert [round(row.value) for row in last.rows] == [0, 1, 2, 1]
-    with open(folder + '/count') as lines:
-        assert sorted(lines.read().split()) == ['0', '1', '1', '2']
-    with open(file) as lines:
-        assert len([json.loads(line) for line in lines]) == 5
+    assert sorted(Path(folder, 'count').read_text().split()) == ['0', '1', '1', '2']
+    assert len(list(map(json.loads, Path(file).read_text().splitlines()))) == 5
     with pytest.raises(ValueError, match='done.jsonl has runs of another scene, file, duration'):
         together(scenes.counted, [0], scenes.same, resume=file, duration=1.)
 
@@ -119,9 +126,7 @@ def test_goesOnWhereItStopped(folder, monkeypatch):
 def test_lostWorkersAreRowsThatAreDoneAgain(folder):
     class Broken:
         def submit(self, *_):
-            future = concurrent.futures.Future()
-            future.set_exception(OSError('the machine is gone'))
-            return future
+            return ended(lambda future: future.set_exception(OSError('the machine is gone')))
 
     file = folder + '/done.jsonl'
     row, = together(scenes.flight, 1, resume=file, executor=Broken()).rows
@@ -136,8 +141,7 @@ def test_tradeoffByAnExecutorAndAgain(folder):
     arguments = dict(duration=.05, repeats=2, resume=file)
     vary = {'timeStep': [.8, .4], 'fault': ['none']}
     with concurrent.futures.ThreadPoolExecutor(2) as executor:
-        first = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay,
-                                  executor=executor, **arguments)
+        first = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay, executor=executor, **arguments)
     assert [(row.result, len(row.walls)) for row in first.rows] == [('ok', 2)] * 2
     again = yadefrag.tradeoff(scenes.odd, vary, scenes.oddWay, **arguments)
     assert again.rows == first.rows  # to the last digit of the times: none was run
@@ -165,8 +169,7 @@ def test_badInput(wrong, sentence):
 
 
 def test_fileThatHoldsNoRuns(folder):
-    with open(folder + '/a.jsonl', 'w') as out:
-        out.write('nothing\n')
+    Path(folder, 'a.jsonl').write_text('nothing\n')
     with pytest.raises(ValueError, match='a.jsonl has no runs that can be continued'):
         together(scenes.flight, 1, resume=folder + '/a.jsonl')
 
@@ -195,11 +198,9 @@ kFound = "@@@ 2 [('ok', 0.0), ('failed', None), ('refused', None), ('ok', 5.0)]"
 
 
 def byScript(folder, opening):
-    file = os.path.join(folder, 'script.py')
-    with open(file, 'w') as out:
-        out.write(kScript % (str(ROOT / 'tests' / 'pkg' / 'helpers'), opening))
-    done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, timeout=300, env=project.environment('ensemble'))
+    file = Path(folder, 'script.py')
+    file.write_text(kScript % (str(ROOT / 'tests' / 'pkg' / 'helpers'), opening))
+    done = inYade(file, env=project.environment('ensemble'))
     assert kFound in done.stdout, done.stdout[-3000:]
 
 
@@ -212,8 +213,7 @@ def test_twoWorkersOfMpi(folder):
 def test_twoWorkersOfDask(folder):
     file = os.path.join(folder, 'scheduler.json')
     # The workers are no yade, and have no plugin on their path.
-    environment = {k: v for k, v in os.environ.items() if k != 'PYTHONPATH'}
-    quiet = dict(stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment, cwd=folder)
+    quiet = dict(stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=withoutPath(), cwd=folder)
     started = [subprocess.Popen(['/usr/bin/dask-scheduler', '--host', '127.0.0.1', '--port', '0',
                                  '--no-dashboard', '--scheduler-file', file], **quiet)]
     try:
@@ -239,8 +239,7 @@ def table(values, **settings):
 def test_bandHoldsTheTruthWithItsProbability():
     """2000 ensembles of five normal runs: 90 % ± 2.5 % (3.7 standard deviations)."""
     draw = np.random.default_rng(3)
-    bands = [table((3 + 2 * draw.standard_normal(5)).tolist()).statistics(confidence=.9)[0]
-             for _ in range(2000)]
+    bands = [table((3 + 2 * draw.standard_normal(5)).tolist()).statistics(confidence=.9)[0] for _ in range(2000)]
     share = np.mean([band['low'] < 3 < band['high'] for band in bands])
     assert share == pytest.approx(.9, abs=.025)
 
@@ -291,8 +290,7 @@ def test_meansAreOfRunsThatDifferInSeedsOnly():
     rows = [EnsembleRow(of, 'ok', 100. * of['rate'] + of['size'] + of['seed']) for of in settings]
     eight = EnsembleTable(rows)
     found = eight.statistics()
-    assert found['settings'].tolist() == ['rate=1, size=0.1', 'rate=1, size=0.2', 'rate=2, size=0.1',
-                                          'rate=2, size=0.2']
+    assert found['settings'].tolist() == ['rate=%d, size=%g' % one for one in ((1, .1), (1, .2), (2, .1), (2, .2))]
     assert found['runs'].tolist() == [2] * 4 and np.isnan(found['by']).all()
     assert found['mean'] == pytest.approx([100.6, 100.7, 200.6, 200.7])
     # Over one setting: the other is not mixed.
@@ -340,9 +338,9 @@ def test_warningsOfRunsArePassedOn(capsys):
     assert [row.warnings for row in found] == [['no such size, 0', 'bodies lie'], ['no such size, 1', 'bodies lie'],
                                                ['bodies lie']]
     said = [str(one.message) for one in caught]
-    assert said == ['ensemble: 2 of 3 runs gave this message, some with other numbers: "no such size, 0" The others '
-                    'are in `warnings` of the rows.', 'ensemble: 3 of 3 runs gave this message: "bodies lie" The others are in `warnings` of '
-                    'the rows.']
+    assert said == ['ensemble: %s The others are in `warnings` of the rows.' % one for one in (
+        '2 of 3 runs gave this message, some with other numbers: "no such size, 0"',
+        '3 of 3 runs gave this message: "bodies lie"')]
     assert all(one.filename == tool.__file__ or one.filename == __file__ for one in caught)
 
 
@@ -354,18 +352,14 @@ def test_namesOfMpiDoNotReachTheRuns(monkeypatch):
 
 
 def test_jobsOfATableFindThePlugin(folder):
-    for name, text in (('scene.py', kBatchScript), ('table.txt', 'speed\n1.5\n-3\n')):
-        with open(os.path.join(folder, name), 'w') as out:
-            out.write(text)
-    environment = {k: v for k, v in os.environ.items() if k != 'PYTHONPATH'}
-    done = subprocess.run([kBatch, '-j1', '--disable-pynotify', '--plot-update=0', 'table.txt',
-                           'scene.py'], cwd=folder, env=environment, capture_output=True, text=True,
-                          timeout=300)
-    logs = [open(os.path.join(folder, f)).read()[-800:] for f in os.listdir(folder)
-            if f.endswith('.log')]
+    folder = Path(folder)
+    (folder / 'scene.py').write_text(kBatchScript)
+    (folder / 'table.txt').write_text('speed\n1.5\n-3\n')
+    done = subprocess.run([kBatch, '-j1', '--disable-pynotify', '--plot-update=0', 'table.txt', 'scene.py'], cwd=folder,
+                          env=withoutPath(), capture_output=True, text=True, timeout=300)
+    logs = [log.read_text()[-800:] for log in folder.glob('*.log')]
     assert done.returncode == 0, done.stdout + done.stderr + '\n'.join(logs)
-    moved = [float(open(os.path.join(folder, name + '.txt')).read()) for name in ('1.5', '-3')]
-    assert all(abs(one - 1) < 1e-12 for one in moved)
+    assert [float((folder / name).read_text()) for name in ('1.5.txt', '-3.txt')] == pytest.approx([1, 1], abs=1e-12)
 
 
 def test_batchRequiresOnlyWhatExists(folder):

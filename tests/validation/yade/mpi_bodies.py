@@ -13,12 +13,10 @@ kRadius = .5
 def place(collider, **settings):
     """`settings` of the collider; its label is the name by which mpy finds it."""
     O.engines = [
-        w.ForceResetter(),
-        getattr(w, collider)([w.Bo1_Sphere_Aabb(), w.Bo1_Box_Aabb(), w.Bo1_Facet_Aabb()],
-                             label='collider', **settings),
-        w.InteractionLoop(
-            [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom()],
-            [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
+        w.ForceResetter(), getattr(w, collider)([w.Bo1_Sphere_Aabb(), w.Bo1_Box_Aabb(), w.Bo1_Facet_Aabb()],
+                                                label='collider', **settings),
+        w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom()],
+                          [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
         w.NewtonIntegrator(gravity=(0, -10, 0), damping=0, label='newton')]
     O.materials.append(w.FrictMat(young=1e6, poisson=.3, density=1000, frictionAngle=.5))
 
@@ -91,9 +89,8 @@ def run(steps, merge=True):
 
 def contactsHere():
     """[id1, id2, overlap] of real contacts with a body of this process; all in a merged scene."""
-    return sorted([min(i.id1, i.id2), max(i.id1, i.id2), overlap(i)]
-                  for i in O.interactions if i.isReal and (isMerged() or mp.rank in (
-                      O.bodies[i.id1].subdomain, O.bodies[i.id2].subdomain)))
+    return sorted([min(i.id1, i.id2), max(i.id1, i.id2), overlap(i)] for i in O.interactions if i.isReal
+                  and (isMerged() or mp.rank in (O.bodies[i.id1].subdomain, O.bodies[i.id2].subdomain)))
 
 
 def overlap(contact):

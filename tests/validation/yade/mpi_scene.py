@@ -170,8 +170,7 @@ def dropOwn():
     for i in range(6):
         x = 4 * i + 1.9
         if mp.rank == processOf(x):
-            drop([utils.sphere((x, 10.7 + O.iter / 20, .2), kRadius)], (0, -12, 0),
-                 [1000 + 4 * O.iter + i])
+            drop([utils.sphere((x, 10.7 + O.iter / 20, .2), kRadius)], (0, -12, 0), [1000 + 4 * O.iter + i])
 
 
 def eraseSome():
@@ -237,8 +236,7 @@ def contradicting():
 def refused():
     """Scenes that mpy cannot split: what `tried` reports, by the name of the case."""
     ranks = None if mp.numThreads > 1 else 3
-    cases = dict(unlabelled=unlabelled, elements=elements, divided=divided, factory=factory,
-                 controller=controller)
+    cases = dict(unlabelled=unlabelled, elements=elements, divided=divided, factory=factory, controller=controller)
     report = {}
     for name, make in cases.items():
         O.reset()
@@ -270,9 +268,8 @@ def divided():
 
 def factory():
     assign(columns())
-    O.engines = [*O.engines, w.BoxFactory(maxParticles=1, extents=(8, .4, .4), center=(12, 14, 0), vMin=5,
-                                          vMax=5, rMin=.3, rMax=.3, normal=(0, -1, 0), massFlowRate=1,
-                                          materialId=0)]
+    O.engines = [*O.engines, w.BoxFactory(maxParticles=1, extents=(8, .4, .4), center=(12, 14, 0), vMin=5, vMax=5,
+                                          rMin=.3, rMax=.3, normal=(0, -1, 0), massFlowRate=1, materialId=0)]
 
 
 def controller():

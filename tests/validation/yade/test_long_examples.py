@@ -55,8 +55,7 @@ def test_smoothCylinderRollsMoreEvenly():
 
 def test_ringBreaksAsInTheory(folder):
     """One ring of each kind at 10⁴ per second: 40 % for a single seed."""
-    out, _ = run('ring_fragments', '--seeds', '1', '--rates', '1e4', '--moduli', '0', '20', '--out',
-                 folder)
+    out, _ = run('ring_fragments', '--seeds', '1', '--rates', '1e4', '--moduli', '0', '20', '--out', folder)
     plain, scattered = (row for row in cells(out) if row[1] == '10000')
     assert float(plain[-2]) == pytest.approx(1, abs=.4)
     # Edges that break early unload the others: fewer and larger pieces.

@@ -3,23 +3,21 @@ valgrind's memcheck: no wrong access with the plugin in its stack; findings of Y
 judged."""
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-from project import yadeCommand
+from project import inYade, yadeCommand
 
-
-kHere = os.path.dirname(os.path.abspath(__file__))
+kScenes = pathlib.Path(__file__).with_name('memory_scene.py')
 
 
 def test_memoryStays():
-    done = subprocess.run([*yadeCommand(), os.path.join(kHere, 'soak_scene.py'), '20'],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          timeout=640)
+    done = inYade(kScenes, 'soak', '20', timeout=640)
     lines = [line for line in done.stdout.splitlines() if line.startswith('@@@ ')]
-    assert done.returncode == 0 and lines, done.stdout[-1500:] + done.stderr[-1500:]
+    assert done.returncode == 0 and lines, done.stdout[-3000:]
     result = json.loads(lines[-1][4:])
     assert min(result['cracks']) > 0
     used = result['memory']
@@ -30,15 +28,14 @@ def test_memoryStays():
 
 
 kPlugin = '_yadefrag.so'
-kValgrind = ['valgrind', '--tool=memcheck', '--xml=yes', '--show-leak-kinds=none',
-             '--num-callers=40', '--error-limit=no', '--fair-sched=yes']
+kValgrind = ['valgrind', '--tool=memcheck', '--xml=yes', '--show-leak-kinds=none', '--num-callers=40',
+             '--error-limit=no', '--fair-sched=yes']
 
 
 def isOurs(frame):
-    """True for a function of the plugin; not for its exception translator, through which every
-    call from Python into YADE goes."""
-    return kPlugin in (frame.findtext('obj') or '') \
-        and 'translate_exception' not in (frame.findtext('fn') or '')
+    """True for a function of the plugin; not for its exception translator, through which every call from Python into
+    YADE goes."""
+    return kPlugin in (frame.findtext('obj') or '') and 'translate_exception' not in (frame.findtext('fn') or '')
 
 
 def isOfCompression(functions):
@@ -56,22 +53,18 @@ def findings(report):
     found = []
     for error in ElementTree.parse(report).getroot().iter('error'):
         kind = error.findtext('kind')
-        if kind.startswith('Leak_') or not any(map(isOurs, error.iter('frame'))):
-            continue
         functions = [frame.findtext('fn') or '?' for frame in error.find('stack').iter('frame')]
-        if isOfCompression(functions):
-            continue
-        found.append((kind, error.findtext('what'), functions[:12]))
+        if not kind.startswith('Leak_') and any(map(isOurs, error.iter('frame'))) and not isOfCompression(functions):
+            found.append((kind, error.findtext('what'), functions[:12]))
     return found
 
 
 def runUnderValgrind(folder, *arguments):
-    """(the finished process, findings) of valgrind_scene.py: one process, which takes long to start."""
+    """(the finished process, findings) of memory_scene.py: one process, which takes long to start."""
     report = os.path.join(folder, 'memcheck.xml')
     # Other allocators, Python's own among them, would hide what is freed; Python's reads what memcheck takes for freed.
     done = subprocess.run(
-        [*kValgrind, f'--xml-file={report}', sys.executable, *yadeCommand(), '-j2',
-         os.path.join(kHere, 'valgrind_scene.py'), *arguments],
+        [*kValgrind, f'--xml-file={report}', sys.executable, *yadeCommand(), '-j2', str(kScenes), 'all', *arguments],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=900,
         env=dict(os.environ, LD_PRELOAD='', PYTHONMALLOC='malloc', PYTHONHASHSEED='0', OMP_WAIT_POLICY='passive'))
     return done, findings(report)

@@ -68,8 +68,7 @@ def compare(expected, found, tolerance=kRounding):
     assert expected[0].keys() == found[0].keys()
     for body, values in expected[0].items():
         assert found[0][body][:3] == pytest.approx(values[:3], rel=0, abs=tolerance), body
-    sets = [{pair for pair, depth in contacts.items() if depth > tolerance}
-            for _, contacts in (expected, found)]
+    sets = [{pair for pair, depth in contacts.items() if depth > tolerance} for _, contacts in (expected, found)]
     assert sets[0] - found[1].keys() == set() and sets[1] - expected[1].keys() == set()
     assert len(sets[0]) > 50
 
@@ -102,8 +101,7 @@ def test_sameAsInOneProcess(once, alone, ranks):
 def test_sameAsYadesCollider(once):
     """With as few searches: all processes search when a body of one has left its box, and none of them
     again at the next step."""
-    yades, ours = (once(3, name, 'columnsRun') for name in ('InsertionSortCollider',
-                                                            'LebesgueCollider'))
+    yades, ours = (once(3, name, 'columnsRun') for name in ('InsertionSortCollider', 'LebesgueCollider'))
     compare(merged(yades), merged(ours))
     assert [r['searches'] for r in ours] == [r['searches'] for r in yades]
 
@@ -113,8 +111,7 @@ def test_contactsOfProcessesBeforeTheMerge(once, alone):
     parts = [r['apart'] for r in once(3, 'LebesgueCollider', 'columnsRun')]
     compare(alone('columnsRun'), united(parts))
     owner = {int(body): rank for rank, part in enumerate(parts) for body in part['bodies']}
-    between = [{(a, b) for a, b, _ in part['contacts'] if {owner[a], owner[b]} == {1, 2}}
-               for part in parts]
+    between = [{(a, b) for a, b, _ in part['contacts'] if {owner[a], owner[b]} == {1, 2}} for part in parts]
     assert between[1] == between[2] != set()
 
 
@@ -228,8 +225,7 @@ def test_processesThatContradictEachOther(once):
     for report in once(3, 'LebesgueCollider', 'contradicting'):
         assert re.fullmatch(r'Body #\d+ was inserted without body.subdomain, the process of yade.mpy that '
                             r'moves it\.', report['unassigned'])
-        assert report['twins'] == ('Two processes of yade.mpy have inserted different bodies with the number '
-                                   '500.')
+        assert report['twins'] == ('Two processes of yade.mpy have inserted different bodies with the number 500.')
         assert 'The periodic cell is not the same in all processes of yade.mpy: ' in report['cell']
 
 
@@ -255,8 +251,7 @@ def test_yadesCheck():
 # The others need more processes than fit here (testMPI_3D_bisection.py, six), are written in Python 2
 # (testMPI_3D.py), call mpy without an argument that it requires (testMPI_2D_interactive.py), have no
 # contact (reallocateBodies.py) or no collider (helloMPY.py).
-kNoExamples = pytest.mark.skipif(not os.path.isdir(kExamples),
-                                 reason="YADE's examples are not installed")
+kNoExamples = pytest.mark.skipif(not os.path.isdir(kExamples), reason="YADE's examples are not installed")
 
 
 @kNoExamples

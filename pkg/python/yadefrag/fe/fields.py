@@ -17,10 +17,9 @@ from yadefrag.files import writeColumns
 # without damaging it.
 _ROUNDING = 1e-9
 
-_CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 'm', float),
-           ('nx', '', float), ('ny', '', float), ('opening', 'm', float), ('slip', 'm', float),
-           ('damage', '', float), ('held', '', bool), ('start', 's', float), ('strength', 'Pa', float),
-           ('energy', 'J/m²', float))
+_CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 'm', float), ('nx', '', float),
+           ('ny', '', float), ('opening', 'm', float), ('slip', 'm', float), ('damage', '', float), ('held', '', bool),
+           ('start', 's', float), ('strength', 'Pa', float), ('energy', 'J/m²', float))
 
 
 class Field(NamedTuple):
@@ -210,8 +209,7 @@ def _bodyOf(fe, component):
         return existingBody(fe, component)
     if component is None:
         if len(there) != 1:
-            raise ValueError('component is None, but there are %d bodies; it must be one of %s.' %
-                             (len(there), there))
+            raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
         return there[0]
     if not isWhole(component) or plain(component) not in there:
         refuse('component', component, 'the number of a body, one of %s' % there)

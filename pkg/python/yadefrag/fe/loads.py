@@ -41,8 +41,7 @@ def setLoads(self: FESolver, loads: ArrayLike | None) -> None:
     self._setLoads(forces)
 
 
-def pressure(self: FESolver, nodes: Nodes, p: ArrayLike | Callable[[float], float],
-             intoCracks: bool = False) -> None:
+def pressure(self: FESolver, nodes: Nodes, p: ArrayLike | Callable[[float], float], intoCracks: bool = False) -> None:
     """Applies a pressure, from now on, to the sides of the boundary whose two ends are among
     `nodes`.
 

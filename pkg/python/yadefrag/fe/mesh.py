@@ -186,8 +186,7 @@ def _sizeOf(size, points):
     while True:
         cell = float((high - low).max()) / samples
         columns, rows = (max(2, int(math.ceil(side / cell - 1e-9)) + 1) for side in high - low)
-        places = [(float(low[0] + i * cell), float(low[1] + j * cell)) for j in range(rows)
-                  for i in range(columns)]
+        places = [(float(low[0] + i * cell), float(low[1] + j * cell)) for j in range(rows) for i in range(columns)]
         values = numpy.array([positive('size(%g, %g)' % (x, y), size(x, y), 'm') for x, y in places])
         if values.min() >= cell or samples >= _MOST_SAMPLES:
             return float(low[0]), float(low[1]), cell, columns, values
@@ -229,8 +228,7 @@ class Meshing:
     """
 
     def __init__(self, outline: Any, holes: Any, size: Any, mesh: str | None, meshSeed: int, smooth: Any,
-                 simplify: float | None, joints: Any, jointTolerance: float | None,
-                 material: Any = None) -> None:
+                 simplify: float | None, joints: Any, jointTolerance: float | None, material: Any = None) -> None:
         points = pointsOf('outline', outline, 3)
         loops = holesOf(holes)
         self.outline = Outline(points, loops, smoothFlags(smooth, len(points)))

@@ -15,8 +15,7 @@ _UNITS = {'strength': 'Pa', 'fractureEnergy': 'J/m²', 'jointStrength': 'Pa', 'j
           'interfaceStrength': 'Pa', 'interfaceEnergy': 'J/m²'}
 _RIGHT = 'an FEMat, its label or its number in O.materials'
 _SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for each triangle, or '
-                     'a pair of a list of materials and an array of their numbers in it, one for '
-                     'each triangle')
+                     'a pair of a list of materials and an array of their numbers in it, one for each triangle')
 
 
 def centroids(mesh: Mesh) -> numpy.ndarray:

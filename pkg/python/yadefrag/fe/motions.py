@@ -91,15 +91,13 @@ def _motion(name, value, count):
     if each is None or each.ndim != 1 or each.dtype.kind not in 'iuf':
         refuse(name, value, _RIGHT)
     if len(each) != count:
-        raise ValueError('%s has %d values, it must have one for each of the %d nodes.' %
-                         (name, len(each), count))
+        raise ValueError('%s has %d values, it must have one for each of the %d nodes.' % (name, len(each), count))
     if not numpy.isfinite(each).all():
         raise ValueError('%s has a value that is not finite (m/s).' % name)
     return each.astype(float)
 
 
-def prescribe(self: FESolver, nodes: Nodes,
-              vx: ArrayLike | Callable[[float, float, float], float] | None = None,
+def prescribe(self: FESolver, nodes: Nodes, vx: ArrayLike | Callable[[float, float, float], float] | None = None,
               vy: ArrayLike | Callable[[float, float, float], float] | None = None) -> None:
     """Prescribes the nodes' velocities vx, vy (m/s) from now on; None: free in that direction.
 

@@ -86,8 +86,7 @@ def _advised(fe, outline, overlap, snap, size, displacement):
         return '%s Move it by that, or more where it is deeper elsewhere.' % overlap
     if snap is None or snap < least:
         return '%s snap=%g moves its vertices onto the bodies beside it.' % (overlap, least)
-    return ('%s snap= has moved its vertices by up to %g m, which does not suffice: move it.' %
-            (overlap, snap))
+    return ('%s snap= has moved its vertices by up to %g m, which does not suffice: move it.' % (overlap, snap))
 
 
 def _changes(fe, outline, tolerance, size):

@@ -37,12 +37,11 @@ def _centroid(nodes, triangles):
     return (corners.mean(axis=1) * areas[:, None]).sum(axis=0) / areas.sum()
 
 
-def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
-         velocity: ArrayLike | ByPlace = (0, 0), spin: float = 0, displacement: ByPlace | None = None,
-         stress: ArrayLike | ByPlace | None = None, fixed: ByPlace | None = None, thickness: float = 1,
-         selfContact: bool = True, element: str | None = None, strength: ArrayLike | ByPlace | None = None,
-         fractureEnergy: ArrayLike | ByPlace | None = None, jointStrength: ArrayLike | None = 0,
-         jointEnergy: ArrayLike | None = None,
+def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocity: ArrayLike | ByPlace = (0, 0),
+         spin: float = 0, displacement: ByPlace | None = None, stress: ArrayLike | ByPlace | None = None,
+         fixed: ByPlace | None = None, thickness: float = 1, selfContact: bool = True, element: str | None = None,
+         strength: ArrayLike | ByPlace | None = None, fractureEnergy: ArrayLike | ByPlace | None = None,
+         jointStrength: ArrayLike | None = 0, jointEnergy: ArrayLike | None = None,
          interfaceStrength: float | ByPlace | dict[tuple, float] | None = None,
          interfaceEnergy: float | ByPlace | dict[tuple, float] | None = None, name: str | None = None) -> int:
     """material        an FEMat, its label or its number in O.materials, with its present values: later
@@ -161,8 +160,7 @@ def _takesBody(*without):
 
 @_takesBody()
 def addMesh(self: FESolver, mesh: Mesh | MeshFile | Sequence[ArrayLike],
-            material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool | None = None,
-            **body: Any) -> int:
+            material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool | None = None, **body: Any) -> int:
     """Adds a plane body with a given mesh; returns its number (int).
 
     mesh            a Mesh, of polygonMesh or rectangleMesh; the MeshFile of readMesh; or a pair of nodes
@@ -231,8 +229,7 @@ def addPolygon(self: FESolver, outline: ArrayLike, holes: Iterable[ArrayLike] = 
 
 @_takesBody('jointStrength', 'jointEnergy')
 def addTriangles(self: FESolver, nodes: ArrayLike, triangles: ArrayLike,
-                 material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool = False,
-                 **body: Any) -> int:
+                 material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool = False, **body: Any) -> int:
     """Adds a body with a given mesh; returns its number (int): `addMesh((nodes, triangles), material, ...)`.
 
     nodes (n, 2) in m, or (n, 3) of one z, which is ignored, all of them used; triangles (m, 3) node

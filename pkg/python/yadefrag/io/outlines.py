@@ -21,16 +21,14 @@ from yadefrag.messages import shapely, treeOf, warn
 _GAP = 1e-6  # of the longer side of the drawing: drawings have six digits
 _FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line
 _READERS: dict[str, Callable] = {
-    '.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt,
-    '.json': plain.readGeoJson, '.geojson': plain.readGeoJson,
-    **{ending: plain.readPicture for ending in plain.ENDINGS}}
+    '.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt, '.json': plain.readGeoJson,
+    '.geojson': plain.readGeoJson, **{ending: plain.readPicture for ending in plain.ENDINGS}}
 _MOST_PIECES = 1000  # of one side
 _WORKS = 'outlineReport works'
 
 
 def readOutline(file: File, tolerance: float | None = None, scale: float = 1, gap: float | None = None,
-                simplify: float | None = None, leastArea: float = 0.,
-                layers: str | Iterable[str] | None = None,
+                simplify: float | None = None, leastArea: float = 0., layers: str | Iterable[str] | None = None,
                 byLayer: bool = False) -> list[Shape] | dict[str, list[Shape]]:
     """Outlines from a drawing, a map or a picture: list of (outline, holes), as for addPolygon.
 
@@ -91,8 +89,7 @@ def readPolygon(file: File) -> Shape:
 
 
 def outlinesOf(file: File, tolerance: float | None = None, scale: float = 1, gap: float | None = None,
-               simplify: float | None = None, leastArea: float = 0.,
-               layers: str | Iterable[str] | None = None,
+               simplify: float | None = None, leastArea: float = 0., layers: str | Iterable[str] | None = None,
                byLayer: bool = False) -> tuple[Any, dict[str, int]]:
     """(what readOutline returns, {what is left out: number})."""
     name = path('file', file)
@@ -107,8 +104,7 @@ def outlinesOf(file: File, tolerance: float | None = None, scale: float = 1, gap
     leastArea = number('leastArea', leastArea, lambda v: 0 <= v < math.inf, '0 or a positive number (m²)')
     byLayer = flag('byLayer', byLayer)
     if ending != '.dxf' and (byLayer or layers is not None):
-        raise ValueError('layers or byLayer is given, but %s has no layers: only a .dxf file has.' %
-                         shownPath(name))
+        raise ValueError('layers or byLayer is given, but %s has no layers: only a .dxf file has.' % shownPath(name))
     wanted = None if layers is None else _names(layers)
     with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
@@ -149,8 +145,7 @@ def _layers(file, tolerance, wanted):
     for one in wanted:
         if one.casefold() not in known:
             raise ValueError('layers has %s, but the layers with lines of %s are %s.' %
-                             (shown(one), shownPath(file),
-                              ', '.join(map(repr, list(known.values())[:10])) or 'none'))
+                             (shown(one), shownPath(file), ', '.join(map(repr, list(known.values())[:10])) or 'none'))
     return {known[one.casefold()]: parts[known[one.casefold()]] for one in wanted}
 
 
@@ -182,15 +177,13 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
     sizes = abs(loops.areas(every))
     flat = (sizes <= _FLAT * loops.extents(every)**2) & (sizes >= leastArea)
     if flat.any():
-        raise ValueError('%s has a loop without area at (%g, %g).' %
-                         (shownPath(name), *every[int(flat.argmax())][0]))
+        raise ValueError('%s has a loop without area at (%g, %g).' % (shownPath(name), *every[int(flat.argmax())][0]))
     large = iter(sizes >= leastArea)
     rings = [[(ring, next(large)) for ring in those] for those in rings]
     regions = [(outline, [hole for hole, isLarge in holes if isLarge])
                for (outline, isLarge), *holes in rings if isLarge]
     if not regions:
-        raise ValueError('%s has no closed line%s.' %
-                         (shownPath(name), ' around leastArea' if leastArea else ''))
+        raise ValueError('%s has no closed line%s.' % (shownPath(name), ' around leastArea' if leastArea else ''))
     return loops.nested(regions, name)
 
 
@@ -215,8 +208,7 @@ def _pairs(loop):
 
 
 def outlineReport(outline: ArrayLike | File, holes: Iterable[ArrayLike] = (), *, size: float,
-                  material: FEMat | str | int, simplify: float | None = None,
-                  **reading: Any) -> dict[str, Any]:
+                  material: FEMat | str | int, simplify: float | None = None, **reading: Any) -> dict[str, Any]:
     """A dict with the effect of an outline's finest features on the time step; no mesh is made.
 
     outline, holes, simplify  as in addPolygon; or `outline` is the path of a file, of whose outlines the
@@ -254,8 +246,7 @@ def _ofFile(file, size, material, reading):
     if 'byLayer' in reading:
         raise TypeError('byLayer is given, but outlineReport reports on all layers, or on those of layers=.')
     shapes, leftOut = outlinesOf(file, **reading)
-    report = _report([[numpy.array(loop) for loop in (outline, *holes)] for outline, holes in shapes],
-                     size, material)
+    report = _report([[numpy.array(loop) for loop in (outline, *holes)] for outline, holes in shapes], size, material)
     report.update(outlines=len(shapes), leftOut=leftOut)
     if leftOut:
         report['words'] += ' The file is read without: %s.' % leftOutWords(leftOut)
@@ -327,6 +318,5 @@ def _words(report, size):
     else:
         what, (x, y) = 'a width of %.3g m', report['narrowestAt']
     return ('%d points, of which %s at (%.6g, %.6g) makes the critical step about %.3g s, %.3g times '
-            'shorter than triangles of the size %.4g m.' %
-            (report['points'], what % report['finest'], x, y, report['timeStep'], report['ratio'],
-             size))
+            'shorter than triangles of the size %.4g m.' % (report['points'], what % report['finest'], x, y,
+                                                            report['timeStep'], report['ratio'], size))

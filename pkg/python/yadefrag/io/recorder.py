@@ -20,8 +20,7 @@ from yadefrag.scene.lifecycle import MOST_STEPS
 # Written unless others are chosen.
 _USUAL = ('displacement', 'velocity', 'contact force', 'reaction', 'stress', 'stress zz', 'strain', 'plastic strain',
           'temperature', 'damage', 'component', 'fragment')
-_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside',
-             'total', 'scene')
+_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside', 'total', 'scene')
 _FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
     ('reaction x (N)', 'reaction y (N)')
 _OF_YIELDING = ('plastic (J)', 'largest plastic strain', 'highest temperature (K)')
@@ -100,8 +99,7 @@ def _state(fe, fields):
         return fe.nodes[nodes], blocks, points, cells
 
 
-def FERecorder(iterPeriod: int = 0, file: File = 'run', fields: Iterable[str] | None = None,
-               **settings: Any) -> Any:
+def FERecorder(iterPeriod: int = 0, file: File = 'run', fields: Iterable[str] | None = None, **settings: Any) -> Any:
     """An engine, a PyRunner for the end of O.engines, that records the scene's FESolver.
 
     iterPeriod  steps between two records; or virtPeriod (s), realPeriod (s) and all other settings

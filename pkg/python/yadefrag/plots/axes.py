@@ -212,9 +212,8 @@ class YadeBodies:
             return
         sides = 2 * self.radii
         ax.add_collection(EllipseCollection(
-            sides, sides, numpy.zeros(len(sides)), units='xy', offsets=self.places,
-            offset_transform=ax.transData, facecolors=self._shades, edgecolors='k', linewidths=.3,
-            zorder=2), autolim=False)
+            sides, sides, numpy.zeros(len(sides)), units='xy', offsets=self.places, offset_transform=ax.transData,
+            facecolors=self._shades, edgecolors='k', linewidths=.3, zorder=2), autolim=False)
 
     def _drawRigid(self, ax):
         from matplotlib.collections import LineCollection, PolyCollection

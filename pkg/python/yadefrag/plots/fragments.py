@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
             ('mass', 'kg', float), ('area', 'm²', float), ('size', 'm', float), ('x', 'm', float),
             ('y', 'm', float), ('vx', 'm/s', float), ('vy', 'm/s', float), ('spin', 'rad/s', float))
-_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped',
-             'external', 'total')
+_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'external', 'total')
 _COUNTS = ('step', 'time (s)', 'cracks', 'segments', 'fragments')
 _STATES = ('open', 'damaged', 'whole')
 _RECORD = _COUNTS + tuple('%s (J)' % e for e in _ENERGIES) + tuple('%s cracks' % s for s in _STATES)
@@ -40,9 +39,8 @@ def fragmentTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
     """
     requireSolver(fe)
     name = None if file is None else path('file', file, '.csv')
-    rows = [(number, f['component'], f['triangles'], f['mass'], f['area'],
-             numpy.sqrt(max(f['area'], 0)), *f['centroid'], *f['velocity'], f['spin'])
-            for number, f in enumerate(fe.fragments())]
+    rows = [(number, f['component'], f['triangles'], f['mass'], f['area'], numpy.sqrt(max(f['area'], 0)),
+             *f['centroid'], *f['velocity'], f['spin']) for number, f in enumerate(fe.fragments())]
     table = numpy.array(rows, dtype=[(name, kind) for name, _, kind in _COLUMNS])
     table = table[numpy.argsort(-table['area'], kind='stable')]
     if name is not None:
@@ -74,8 +72,7 @@ def plotFragmentSizes(fe: FESolver, file: File | None = None, ax: Axes | None = 
     # The curve falls after each size: the point (size, number) is the last one on its level.
     sizes = chosen['size'][::-1]
     ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4, linewidth=1)
-    ax.set(xscale='log', yscale='log', xlabel='size of a fragment, √area (m)',
-           ylabel='fragments at least as large')
+    ax.set(xscale='log', yscale='log', xlabel='size of a fragment, √area (m)', ylabel='fragments at least as large')
     ax.grid(True, which='both', linewidth=.3)
     savePicture(ax.figure, file, dpi=150)
     return ax

@@ -23,11 +23,10 @@ if TYPE_CHECKING:
 _NO_VALUE = '.8'  # grey of triangles without a value
 
 
-def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | None = None,
-             ax: Axes | None = None, limits: Sequence | None = None, *,
-             fields: Sequence[str | ArrayLike | None] | None = None, xlim: ArrayLike | None = None,
-             ylim: ArrayLike | None = None, spheres: bool = True, rigidBodies: bool = True,
-             scale: float = 1) -> Axes | list[Axes]:
+def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | None = None, ax: Axes | None = None,
+             limits: Sequence | None = None, *, fields: Sequence[str | ArrayLike | None] | None = None,
+             xlim: ArrayLike | None = None, ylim: ArrayLike | None = None, spheres: bool = True,
+             rigidBodies: bool = True, scale: float = 1) -> Axes | list[Axes]:
     """Draws the triangles of an FESolver at their present positions, without removed fragments; cracks
     that cohesion holds, coloured by their damage, and open ones black, above them; and YADE's spheres,
     walls, boxes and facets. Returns Matplotlib's axes.
@@ -242,8 +241,7 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
 
     _requireBodies(fe)
     if field is not None and not isinstance(field, str):
-        raise ValueError('field is an array, which does not change during the run; it must be a '
-                         'name or None.')
+        raise ValueError('field is an array, which does not change during the run; it must be a name or None.')
     start = _Picture(fe, field)
     scale = _scale(scale)
     steps, every = whole('steps', steps), whole('every', every)

@@ -20,8 +20,7 @@ from yadefrag.messages import inWords
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
 _RIGHT = {'contactTolerance': "'fine', 'default', 'coarse' or a number",
-          'softening': 'a name, or a list of points (opening over critical opening, traction over '
-                       'strength)',
+          'softening': 'a name, or a list of points (opening over critical opening, traction over strength)',
           'rateEffect': 'a name, or a list of points (strain rate in 1/s, factor of the strength)',
           'hardeningTable': "'none', or a list of points (plastic strain, yield stress in Pa)"}
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
@@ -46,8 +45,7 @@ def __setattr__(self: Any, name: str, value: Any) -> None:
     except _WRONG_KIND:
         right = 'two or three numbers' if _isGravity(self, name) else \
             _RIGHT.get(name) or _right(getattr(self, name), value)
-        refuse('%s.%s' % (type(self).__name__, name), value, right,
-               TypeError)  # as for YADE's own classes
+        refuse('%s.%s' % (type(self).__name__, name), value, right, TypeError)  # as for YADE's own classes
 
 
 def _warnOfUnknown(self, name):

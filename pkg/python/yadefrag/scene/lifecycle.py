@@ -303,8 +303,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
             portion = max(1, min(2 * now, int(.1 * now / seconds)))
     except KeyboardInterrupt:
         bar.close()
-        print('Stopped after %d of %d steps, at %.6g s.' %
-              (stepsDone() - begin, steps, omega.time), file=sys.stderr)
+        print('Stopped after %d of %d steps, at %.6g s.' % (stepsDone() - begin, steps, omega.time), file=sys.stderr)
         raise
     finally:
         bar.close()

@@ -111,11 +111,9 @@ def _movedByTheMaster(mpy, new):
 def _refuseTwins(mpy, own, inserted):
     """YADE would take one for a copy of the other."""
     others = (ids for rank, ids in enumerate(inserted) if rank != mpy.rank)
-    twins = [id for found in mpy.comm.allgather([id for ids in others for id in ids if id in own])
-             for id in found]
+    twins = [id for found in mpy.comm.allgather([id for ids in others for id in ids if id in own]) for id in found]
     if twins:
-        raise RuntimeError('Two processes of yade.mpy have inserted different bodies with the number %d.'
-                           % min(twins))
+        raise RuntimeError('Two processes of yade.mpy have inserted different bodies with the number %d.' % min(twins))
 
 
 def _releaseCopies():
@@ -309,8 +307,7 @@ def _reasonOfClumps(mpy):
         return None
     bodies = wrapper.Omega().bodies
     for body in bodies:
-        if body.isClumpMember and (not _exists(body.clumpId)
-                                   or bodies[body.clumpId].subdomain != body.subdomain):
+        if body.isClumpMember and (not _exists(body.clumpId) or bodies[body.clumpId].subdomain != body.subdomain):
             return ('Clump #%d and its members belong to different processes of yade.mpy: give them the same '
                     'body.subdomain.' % body.clumpId)
     return None

@@ -105,8 +105,7 @@ def _untouched(shape, body):
         return ('FE bodies go through bodies of the shape %s, such as #%d: FESolver.rigidBodies is '
                 'False.' % (shape, body))
     return ('FE bodies go through bodies of the shape %s, such as #%d: they touch each other, spheres, '
-            'walls, boxes and facets only; a body of FESolver with fixed nodes can take its place.' %
-            (shape, body))
+            'walls, boxes and facets only; a body of FESolver with fixed nodes can take its place.' % (shape, body))
 
 
 def _outOfPlane(beside, leaving, loose, gravityZ):
@@ -138,8 +137,7 @@ def _isWithoutSolver():
     if present == _looked:
         return False
     _looked = present
-    return any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0
-               for body in omega.bodies)
+    return any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0 for body in omega.bodies)
 
 
 def tellUnmoved() -> None:

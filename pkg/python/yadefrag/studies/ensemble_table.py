@@ -139,8 +139,7 @@ class EnsembleTable:
         if by is None:
             groups = grouped(self.rows, names)
             values = [of.get(names[0]) if len(names) == 1 else None for of, _ in groups]
-            return [(of, value if _isNumber(value) else math.nan, rows)
-                    for (of, rows), value in zip(groups, values)]
+            return [(of, value if _isNumber(value) else math.nan, rows) for (of, rows), value in zip(groups, values)]
         if not self.rows or not all(isinstance(by, str) and _isNumber(row.settings.get(by)) for row in self.rows):
             refuse('by', by, 'the name of a setting that is a number in all rows')
         names = [name for name in names if name != by] + [by]
@@ -273,9 +272,8 @@ def _drawBand(ax, x, table, counts, confidence, style='-', colour=DISTINCT[0], o
     least, most = min(counts), max(counts)
     ax.fill_between(x, table['low'], table['high'], color=colour, alpha=.3, linewidth=0,
                     label=None if of else '%g %% band of the mean' % (100 * confidence))
-    ax.plot(x, table['mean'], style, color=colour,
-            label='%smean of %s runs' % (describe(of) + ': ' if of else '',
-                                         least if least == most else '%d to %d' % (least, most)))
+    ax.plot(x, table['mean'], style, color=colour, label='%smean of %s runs' %
+            (describe(of) + ': ' if of else '', least if least == most else '%d to %d' % (least, most)))
 
 
 def _share(confidence):

@@ -59,8 +59,7 @@ class Sanity:
             if not math.isfinite(excess):
                 raise BlewUp('the energy is %r J.' % excess)
             if excess > max(most, rounding):
-                raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.' %
-                             (excess, most))
+                raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.' % (excess, most))
         for body in self.omega.bodies:
             radius = getattr(body.shape, 'radius', None)
             if radius is None:

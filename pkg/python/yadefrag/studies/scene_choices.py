@@ -55,8 +55,7 @@ KNOWN = {
 def check(name: str, value: Any) -> None:
     """ValueError, with one sentence, for an invalid value of a known choice; other names are not checked."""
     if name in KNOWN and not KNOWN[name][0](value):
-        raise ValueError('vary has the choice %s=%s, it must be %s.' %
-                         (name, arguments.shown(value), KNOWN[name][1]))
+        raise ValueError('vary has the choice %s=%s, it must be %s.' % (name, arguments.shown(value), KNOWN[name][1]))
 
 
 class Choices:
@@ -111,8 +110,7 @@ class Choices:
                                                   settings.get('contactTolerance', 'default')))
         times = self.get('bulkViscosity')
         if times is not None:
-            settings.update(linearViscosity=times * LINEAR_VISCOSITY,
-                            quadraticViscosity=times * QUADRATIC_VISCOSITY)
+            settings.update(linearViscosity=times * LINEAR_VISCOSITY, quadraticViscosity=times * QUADRATIC_VISCOSITY)
         else:
             self.used['bulkViscosity'] = settings.get('linearViscosity', 0) / LINEAR_VISCOSITY
         return wrapper.FESolver(**settings)

@@ -27,10 +27,9 @@ _REPEATABLE = ('not run', 'ok')
 
 
 def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | Sequence[dict[str, Sequence]],
-             measure: Callable[..., Any], *, duration: float,
-             reference: ArrayLike | File | dict[str, Any] = 0., watch: Callable[[Any], Any] | None = None,
-             every: float = 0., repeats: int = 3, limit: float = 60., files: File | None = None,
-             title: str = '', executor: Any = None, resume: File | None = None,
+             measure: Callable[..., Any], *, duration: float, reference: ArrayLike | File | dict[str, Any] = 0.,
+             watch: Callable[[Any], Any] | None = None, every: float = 0., repeats: int = 3, limit: float = 60.,
+             files: File | None = None, title: str = '', executor: Any = None, resume: File | None = None,
              by: str | Sequence[str] = ()) -> TradeoffTable:
     """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
 
@@ -147,8 +146,7 @@ def _values(name, values):
     if isinstance(values, numpy.ndarray):
         values = list(values.flat)
     if not isinstance(values, (list, tuple, range)) or not values:
-        raise ValueError('vary has %s for the choice %s, it must be a list of values.' %
-                         (shown(values), shown(name)))
+        raise ValueError('vary has %s for the choice %s, it must be a list of values.' % (shown(values), shown(name)))
     return [checkChoice(name, value) for value in values]
 
 
@@ -217,8 +215,7 @@ def _finest(rows):
     """The row that is the reference if no other is given; None without rows."""
     if not rows:
         return None
-    return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0),
-                                      -row.wall))
+    return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0), -row.wall))
 
 
 def _error(value, right):

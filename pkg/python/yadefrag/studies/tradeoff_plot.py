@@ -21,14 +21,12 @@ if TYPE_CHECKING:
 
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
 # Possible positions of a point's text: offset in points, alignment.
-_SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center', 'top'),
-          (-6, 0, 'right', 'center'), (5, 5, 'left', 'bottom'), (-5, 5, 'right', 'bottom'),
-          (5, -5, 'left', 'top'), (-5, -5, 'right', 'top'), (0, 16, 'center', 'bottom'),
-          (0, -16, 'center', 'top')]
+_SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center', 'top'), (-6, 0, 'right', 'center'),
+          (5, 5, 'left', 'bottom'), (-5, 5, 'right', 'bottom'), (5, -5, 'left', 'top'), (-5, -5, 'right', 'top'),
+          (0, 16, 'center', 'bottom'), (0, -16, 'center', 'top')]
 
 
-def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, label: str | None,
-         names: bool) -> Axes:
+def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, label: str | None, names: bool) -> Axes:
     """See TradeoffTable.plot."""
     front = table.front(time)
     shown: list[Any] = [row for row in table.rows if row.error is not None and not table.isReference(row)]
@@ -59,8 +57,7 @@ def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, la
     shown.sort(key=lambda row: (row not in front, row is not table.rows[0]))
     if names:
         _legend(ax, table, front)
-        _marks(ax, [(at[id(row)], str(table.rows.index(row) + 1), row in front) for row in shown],
-               isNeeded=True)
+        _marks(ax, [(at[id(row)], str(table.rows.index(row) + 1), row in front) for row in shown], isNeeded=True)
     else:
         _marks(ax, [(at[id(row)], table.label(row), row in front) for row in shown], isNeeded=False)
     savePicture(ax.figure, file, dpi=110)

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message', 'seconds', 'warnings')
-_TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
-          'cpu': 'processor time over simulated time (s/s)'}
+_TIMES = {'wall': 'wall-clock time over simulated time (s/s)', 'cpu': 'processor time over simulated time (s/s)'}
 Row = TypeVar('Row', bound=Any)
 SEED = 'seed'  # runs that differ in it only are repetitions
 
@@ -130,8 +129,7 @@ class TradeoffTable:
         if not self.rows:
             raise ValueError('the table has no rows.')
         first = self.rows[0].settings
-        other = {name: value for name, value in row.settings.items()
-                 if _encode(value) != _encode(first.get(name))}
+        other = {name: value for name, value in row.settings.items() if _encode(value) != _encode(first.get(name))}
         return describe(other) if other else 'row 1'
 
     def front(self, time: str = 'wall') -> list[TradeoffRow]:
@@ -185,8 +183,7 @@ class TradeoffTable:
             raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(COLUMNS)))
         rows = [_row(head, line) for line in lines[1:]]
         if None in rows:
-            raise ValueError('%s has a damaged row, the one after %d others.' %
-                             (shownPath(name), rows.index(None)))
+            raise ValueError('%s has a damaged row, the one after %d others.' % (shownPath(name), rows.index(None)))
         return cls(rows, title)
 
     def __str__(self) -> str:
@@ -202,8 +199,7 @@ class TradeoffTable:
         if not self.rows:
             raise ValueError('the table has no rows.')
         out = ['# %s\n' % self.title] * bool(self.title)
-        out += ['Row 1: %s. The others differ from row 1 as stated.\n' %
-                describe(self.rows[0].settings),
+        out += ['Row 1: %s. The others differ from row 1 as stated.\n' % describe(self.rows[0].settings),
                 'Times are those of the steps: of a run, and per simulated second.\n',
                 '| # | setting | run, s | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
                 '|--:|---|--:|--:|--:|--:|--:|--:|']
@@ -216,11 +212,9 @@ class TradeoffTable:
                 error = row.message if row.error is None else '%.3g' % row.error
                 error += ' (reference)' if self.isReference(row) else ''
                 cells += ['' if row.seconds is None else '%.3g' % row.seconds, '%.4g' % row.wall, '%.4g' % row.cpu,
-                          '' if ratio is None else '%.2f' % ratio, str(row.steps),
-                          error]
+                          '' if ratio is None else '%.2f' % ratio, str(row.steps), error]
             else:
-                cells += ['', '', '', '', '', '%s: %s' % (row.result, row.message) if row.message
-                          else row.result]
+                cells += ['', '', '', '', '', '%s: %s' % (row.result, row.message) if row.message else row.result]
             out.append('| ' + ' | '.join(cell.replace('|', '\\|') for cell in cells) + ' |')
         whole = '\n'.join(out) + '\n' + self._meansText()
         if file is not None:
@@ -239,8 +233,7 @@ class TradeoffTable:
             lines.append('| %s |' % ' | '.join([describe(row.settings), row.message, *numbers]).replace('\n', ' '))
         return '\n'.join(lines) + '\n'
 
-    def plot(self, file: File | None = None, ax: Axes | None = None, time: str = 'wall',
-             names: bool = True) -> Axes:
+    def plot(self, file: File | None = None, ax: Axes | None = None, time: str = 'wall', names: bool = True) -> Axes:
         """Draws error over time, with the Pareto front as a line; returns Matplotlib's axes.
 
         Points have the numbers of the Markdown table, explained at the side; without `names` at the

@@ -25,8 +25,7 @@ from yadefrag.arguments import shownPath
 _CORNERS = {'triangle': 3, 'quad': 4, 'line': 2, 'vertex': 1}
 # Number of nodes, with or without those in the middle: the degree of the sides.
 _ORDERS = {'triangle': {6: 2, 7: 2, 9: 3, 10: 3, 12: 4, 15: 4}, 'quad': {8: 2, 9: 2, 12: 3, 16: 3, 20: 4, 25: 4}}
-_LAGRANGE = {'VTK_LAGRANGE_TRIANGLE': 'triangle', 'VTK_LAGRANGE_QUADRILATERAL': 'quad',
-             'VTK_LAGRANGE_CURVE': 'line'}
+_LAGRANGE = {'VTK_LAGRANGE_TRIANGLE': 'triangle', 'VTK_LAGRANGE_QUADRILATERAL': 'quad', 'VTK_LAGRANGE_CURVE': 'line'}
 MOST_POINTS = 10**6  # on one curve: a tolerance that needs more is a mistake
 
 
@@ -62,8 +61,7 @@ def needed(module: str, package: str, file: str) -> ModuleType:
 def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
     """ValueError: the contents of `file` do not match its ending; `error` is the library's exception."""
     words = ' '.join(str(error).split()).rstrip('.')[:120]
-    raise ValueError('%s is not a readable %s: %s.' %
-                     (shownPath(file), kind, words or type(error).__name__)) from None
+    raise ValueError('%s is not a readable %s: %s.' % (shownPath(file), kind, words or type(error).__name__)) from None
 
 
 def requireTolerance(tolerance: float | None, file: str, what: str) -> float:
@@ -134,8 +132,7 @@ def bezier(points: ArrayLike, tolerance: float) -> numpy.ndarray:
     return parts[0]
 
 
-def ellipticArc(centre: ArrayLike, axes: ArrayLike, start: float, sweep: float,
-                tolerance: float) -> numpy.ndarray:
+def ellipticArc(centre: ArrayLike, axes: ArrayLike, start: float, sweep: float, tolerance: float) -> numpy.ndarray:
     """(n + 1, 2) points from the angle `start` over `sweep` (rad) on centre + a·cos + b·sin; `axes`
     are the vectors (a, b). At least eight pieces per turn."""
     a, b = numpy.asarray(axes, dtype=float)

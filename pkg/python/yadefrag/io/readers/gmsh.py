@@ -4,6 +4,7 @@ reads."""
 
 from __future__ import annotations
 
+import concurrent.futures
 import contextlib
 import ctypes
 import io
@@ -16,13 +17,12 @@ import numpy
 from yadefrag.io.readers import Elements, cornersOf, needed
 
 _KINDS = {
-    1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5',
-    8: 'line3', 9: 'triangle6', 10: 'quad9', 11: 'tetra10', 12: 'hexahedron27', 13: 'wedge18',
-    14: 'pyramid14', 15: 'vertex1', 16: 'quad8', 17: 'hexahedron20', 18: 'wedge15', 19: 'pyramid13',
-    20: 'triangle9', 21: 'triangle10', 22: 'triangle12', 23: 'triangle15', 24: 'triangle15',
-    25: 'triangle21', 26: 'line4', 27: 'line5', 28: 'line6', 29: 'tetra20', 30: 'tetra35',
-    31: 'tetra56', 36: 'quad16', 37: 'quad25', 38: 'quad36', 39: 'quad12', 40: 'quad16', 41: 'quad20',
-    42: 'triangle28', 43: 'triangle36', 47: 'quad49', 48: 'quad64', 62: 'line7', 63: 'line8'}
+    1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5', 8: 'line3',
+    9: 'triangle6', 10: 'quad9', 11: 'tetra10', 12: 'hexahedron27', 13: 'wedge18', 14: 'pyramid14', 15: 'vertex1',
+    16: 'quad8', 17: 'hexahedron20', 18: 'wedge15', 19: 'pyramid13', 20: 'triangle9', 21: 'triangle10',
+    22: 'triangle12', 23: 'triangle15', 24: 'triangle15', 25: 'triangle21', 26: 'line4', 27: 'line5', 28: 'line6',
+    29: 'tetra20', 30: 'tetra35', 31: 'tetra56', 36: 'quad16', 37: 'quad25', 38: 'quad36', 39: 'quad12', 40: 'quad16',
+    41: 'quad20', 42: 'triangle28', 43: 'triangle36', 47: 'quad49', 48: 'quad64', 62: 'line7', 63: 'line8'}
 
 _HEAD = re.compile(rb'\s*(?:\$Comments.*?\$EndComments\s*)*'
                    rb'\$MeshFormat\s+([\d.]+)\s+(\d)\s+(\d+)[^\n]*\n(....)?', re.DOTALL)
@@ -270,37 +270,30 @@ def readByMeshio(name: str) -> Elements:
 
 def _inTime(function, seconds):
     """What `function()` returns or raises; TimeoutError if it takes longer, and then it is ended."""
-    result: list = []
+    future: concurrent.futures.Future = concurrent.futures.Future()
 
     def work():
         try:
-            result.append((function(), None))
+            future.set_result(function())
         except BaseException as error:
-            result.append((None, error))
+            future.set_exception(error)
 
-    thread = threading.Thread(target=work, daemon=True)
+    thread = threading.Thread(target=work, daemon=True)  # an executor would wait for it at the end of Python
     thread.start()
     try:
-        thread.join(seconds)
+        return future.result(seconds)
+    except TimeoutError:
+        raise TimeoutError('reading did not end within %.0f s, the file may be incomplete' % seconds) from None
     finally:
-        if thread.is_alive():
+        if not future.done():
             ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident or 0), ctypes.py_object(SystemExit))
-    if not result:
-        raise TimeoutError('reading did not end within %.0f s, the file may be incomplete' % seconds)
-    found, error = result[0]
-    if error is not None:
-        raise error
-    return found
 
 
 def _told(text):
     """What meshio printed, without colours and marks; one line for each message."""
     plain = re.sub(r'\x1b\[[\d;]*m', '', text.getvalue())
-    found = []
-    for part in re.split(r'^(?:Warning|Info|Error):', plain, flags=re.MULTILINE):
-        if part.strip():
-            found.append(' '.join(part.split()).rstrip('.'))
-    return found
+    parts = re.split(r'^(?:Warning|Info|Error):', plain, flags=re.MULTILINE)
+    return [' '.join(part.split()).rstrip('.') for part in parts if part.strip()]
 
 
 def _cause(text):

@@ -170,11 +170,9 @@ def nested(regions: list[Region], file: str) -> list[Region]:
                for outline, holes in regions]
     inside = around(regions)
     if any(len(those) % 2 and regions[i][1] for i, those in enumerate(inside)):
-        return nested([one for i, region in enumerate(regions)
-                       for one in _parts(*region, len(inside[i]) % 2)], file)
+        return nested([one for i, region in enumerate(regions) for one in _parts(*region, len(inside[i]) % 2)], file)
     sizes = areas([outline for outline, _ in regions])
-    shapes = {i: (regions[i][0], list(regions[i][1])) for i, those in enumerate(inside)
-              if len(those) % 2 == 0}
+    shapes = {i: (regions[i][0], list(regions[i][1])) for i, those in enumerate(inside) if len(those) % 2 == 0}
     for i, those in enumerate(inside):
         if i not in shapes:
             outer = min(those, key=lambda o: sizes[o])

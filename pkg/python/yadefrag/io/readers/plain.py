@@ -40,8 +40,7 @@ def readCsv(name: str, tolerance: float | None) -> Found:
         if len(cells) == 2 and None not in numbers:
             loops[-1].append(numbers)
         elif not mayBeHeading or numbers.count(None) < len(numbers):
-            raise ValueError('%s, line %d: %s, it must be two numbers x, y.' %
-                             (shownPath(name), number, shown(words)))
+            raise ValueError('%s, line %d: %s, it must be two numbers x, y.' % (shownPath(name), number, shown(words)))
         mayBeHeading = False
     return Found([numpy.array(loop + loop[:1]) for loop in loops if loop])
 

@@ -13,8 +13,7 @@ import numpy
 
 from yadefrag.io.readers import Found, needed, refuseFile
 from yadefrag.io.readers.svg_shapes import Clip, Item, appended
-from yadefrag.io.readers.svg_style import (INITIAL, Sheets, fraction, hrefOf, isPattern, isSeen, isWhite,
-                                           tagOf, urlOf)
+from yadefrag.io.readers.svg_style import (INITIAL, Sheets, fraction, hrefOf, isPattern, isSeen, isWhite, tagOf, urlOf)
 
 _PACKAGE = 'python3-svgelements'
 _PIXELS_PER_INCH = 96
@@ -77,8 +76,7 @@ class _Walk:
             width, height = (mine or whole for mine, whole in zip(size, box[2:]))
             across, down = _ratios(box, width, height, self.root.get('preserveAspectRatio', ''))
             self.page = (box[0] - across[1] / across[0], box[1] - down[1] / down[0],
-                         box[0] + (width - across[1]) / across[0],
-                         box[1] + (height - down[1]) / down[0])
+                         box[0] + (width - across[1]) / across[0], box[1] + (height - down[1]) / down[0])
         elif not box and None not in size:
             self.page = (0, 0, *size)
         view = box[2:] if box else tuple(side or 100. for side in size)
@@ -194,8 +192,7 @@ class _Walk:
             return
         if isFilled and isPattern(style['fill'], self.ids):
             self.leftOut['patterns of shapes'] += 1
-        if tag in _WITH_MARKERS and any(urlOf(style[key]) in self.ids for key in style
-                                        if key.startswith('marker-')):
+        if tag in _WITH_MARKERS and any(urlOf(style[key]) in self.ids for key in style if key.startswith('marker-')):
             self.leftOut['markers of shapes'] += 1
         clips = place.clips + self._clips(style, place, path)
         rule = style['clip-rule' if place.isClip else 'fill-rule']
@@ -307,8 +304,7 @@ class _Walk:
             words = (words[1:2] or ['center']) + words[:1]
         words = (words + ['center'])[:2]
         named = dict(left='0%', top='0%', center='50%', right='100%', bottom='100%')
-        return numpy.array([self._length(named.get(word, word), whole, style)
-                            for word, whole in zip(words, view)])
+        return numpy.array([self._length(named.get(word, word), whole, style) for word, whole in zip(words, view)])
 
 
 def _applies(element):
@@ -316,8 +312,7 @@ def _applies(element):
     if 'requiredExtensions' in element.attrib:
         return False
     languages = element.get('systemLanguage')
-    return languages is None or any(one.strip().lower().partition('-')[0] == _LANGUAGE
-                                    for one in languages.split(','))
+    return languages is None or any(one.strip().lower().partition('-')[0] == _LANGUAGE for one in languages.split(','))
 
 
 def _box(element):
@@ -336,8 +331,7 @@ def _ratios(box, width, height, aspect):
     if aspect.strip().startswith('none'):
         return (scales[0], 0.), (scales[1], 0.)
     scale = max(scales) if 'slice' in aspect else min(scales)
-    x, y = (next((part for word, part in (('Min', 0.), ('Max', 1.)) if axis + word in aspect), .5)
-            for axis in 'xY')
+    x, y = (next((part for word, part in (('Min', 0.), ('Max', 1.)) if axis + word in aspect), .5) for axis in 'xY')
     return (scale, x * (width - scale * box[2])), (scale, y * (height - scale * box[3]))
 
 

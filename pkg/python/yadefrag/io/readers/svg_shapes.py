@@ -46,8 +46,7 @@ def appended(found: Found, items: Iterable[Item], page: Sequence[float] | None, 
                 found.leftOut['the cut at the edge of the page'] += 1
                 break
         found.lines += [line * (1, -1) for line in one.lines]
-        found.regions += [(outline * (1, -1), [hole * (1, -1) for hole in holes])
-                          for outline, holes in one.regions]
+        found.regions += [(outline * (1, -1), [hole * (1, -1) for hole in holes]) for outline, holes in one.regions]
 
 
 def _isBeyond(points, page):

@@ -5,10 +5,9 @@ from collections import Counter
 from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
-INITIAL = {'fill': 'black', 'stroke': 'none', 'fill-rule': 'nonzero', 'clip-rule': 'nonzero',
-           'visibility': 'visible', 'fill-opacity': '1', 'stroke-opacity': '1', 'stroke-width': '1',
-           'color': 'black', 'marker-start': 'none', 'marker-mid': 'none', 'marker-end': 'none',
-           'stroke-dasharray': 'none', 'font-size': '16'}
+INITIAL = {'fill': 'black', 'stroke': 'none', 'fill-rule': 'nonzero', 'clip-rule': 'nonzero', 'visibility': 'visible',
+           'fill-opacity': '1', 'stroke-opacity': '1', 'stroke-width': '1', 'color': 'black', 'marker-start': 'none',
+           'marker-mid': 'none', 'marker-end': 'none', 'stroke-dasharray': 'none', 'font-size': '16'}
 _OWN = {'display': 'inline', 'opacity': '1', 'clip-path': 'none', 'mask': 'none', 'filter': 'none',
         'transform': '', 'transform-origin': '', 'transform-box': 'view-box', 'overflow': 'hidden'}
 _PAINTS = ('fill', 'stroke')
@@ -20,11 +19,10 @@ _PART = re.compile(r'(?P<type>%s|\*)|#(?P<id>%s)|\.(?P<class>%s)|:(?P<first>firs
                    r'|\[\s*(?P<key>%s)\s*(?:(?P<how>[~|^$*]?=)\s*["\']?(?P<value>[^"\'\]]*)["\']?\s*)?\]'
                    % ((_NAME,) * 4))
 _MATCHES = {None: lambda has, value: True, '=': lambda has, value: has == value,
-            '~=': lambda has, value: value in has.split(),
-            '|=': lambda has, value: has == value or has.startswith(value + '-'),
-            '^=': lambda has, value: bool(value) and has.startswith(value),
-            '$=': lambda has, value: bool(value) and has.endswith(value),
-            '*=': lambda has, value: bool(value) and value in has}
+            '~=': lambda has, value: value in has.split(), '|=': lambda has, value: has == value
+            or has.startswith(value + '-'), '^=': lambda has, value: bool(value) and has.startswith(value),
+            '$=': lambda has, value: bool(value) and has.endswith(value), '*=': lambda has, value: bool(value)
+            and value in has}
 
 
 def tagOf(element: Element) -> str:

@@ -1,29 +1,94 @@
-"""Small scenes that go through all of the plugin, for test_memory.py: CLASS...; then some of finite elements."""
+"""Scenes for test_memory.py. `soak SECONDS`: builds, cracks, saves, loads, removes and adds for some seconds. `all
+CLASS...`: small scenes that go through all of the plugin; then some of finite elements."""
+import ctypes
+import gc
+import json
 import math
 import os
+import pathlib
+import random
+import re
 import sys
 import tempfile
+import time
 
 kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [kHere, os.path.join(kHere, '..', '..', 'pkg', 'helpers')]
 
-import numpy as np
+import numpy as np  # noqa: E402
 
-import fe_chain as chain
-import scenes
-import yadefrag
-from fe_impact import engines
-from scenes import O
-import yade.wrapper as w
-from yade import utils
-from yade.minieigenHP import Vector3
+import scenes  # noqa: E402
+import yadefrag  # noqa: E402
+from fe_impact import brittle, engines, heapSpheres, impact  # noqa: E402
+from fe_scene import solverOfScene, steps, throwBall  # noqa: E402
+from scenes import O  # noqa: E402
+from yade import utils, wrapper as w  # noqa: E402
+from yade.minieigenHP import Vector3  # noqa: E402
+
+kColliders = (None, 'LebesgueCollider', 'HierarchyCollider', 'InsertionSortCollider')
+kSquare = yadefrag.rectangle((2, 2), (2.01, 2.01))
 
 
-def build(rng):
-    """50 moving spheres in a unit box with a facet, a wall, a box and a clump."""
-    O.dt = 1
-    scenes.addSpheres(rng.uniform(0, 1, (50, 3)), rng.uniform(.05, .1, 50),
-                      rng.normal(size=(50, 3)) * .01)
+def memory():
+    """kB in use, once all that is free has gone back to the system."""
+    gc.collect()
+    ctypes.CDLL('libc.so.6').malloc_trim(0)
+    return int(re.search(r'VmRSS:\s+(\d+)', pathlib.Path('/proc/self/status').read_text())[1])
+
+
+def cycle(number, folder, draw):
+    """One scene from its beginning to its end; returns its number of cracks."""
+    O.reset()
+    finder = kColliders[number % len(kColliders)]
+    solver = impact(finder, threads=1 + number % 2, fractureEnergy=0, strengthScatter=.1)
+    if finder and draw.random() < .5:
+        heapSpheres()
+    solver.minFragmentArea = draw.choice((0, 4e-6))
+    yadefrag.runSteps(130)
+    path = os.path.join(folder, draw.choice(('a.yade', 'a.yade.gz', 'a.xml')))
+    record = yadefrag.recordFracture(solver, os.path.join(folder, 'a.csv'))
+    O.run()
+    for _ in range(4):  # of a scene that runs
+        yadefrag.fragmentTable(solver)
+        solver.damping = draw.random()
+        record()
+        yadefrag.exportVTK(solver, os.path.join(folder, 'a.vtu'))
+    O.save(path)
+    added = draw.random() < .5
+    O.pause()
+    if added:
+        number = solver.addPolygon(kSquare, size=.005, material=brittle())
+        yadefrag.runSteps(5)
+        solver.removeBody(number)
+    yadefrag.runSteps(20)
+    O.load(path)
+    solver = solverOfScene()
+    yadefrag.runSteps(20)
+    solver.removeBody(0)
+    yadefrag.runSteps(5)
+    cracks = solver.numCracks
+    O.saveTmp()
+    O.loadTmp()
+    return cracks
+
+
+def soak(seconds):
+    """Prints a line of JSON: cracks, and the memory in use after each round (kB)."""
+    draw = random.Random(1)
+    end = time.time() + seconds
+    cracks, used = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        while time.time() < end or len(used) < 3 * len(kColliders):
+            cracks.append(cycle(len(used), folder, draw))
+            O.reset()
+            used.append(memory())
+    print('@@@ ' + json.dumps(dict(cracks=cracks, memory=used)), flush=True)
+
+
+# --- all of the plugin
+
+def addOthers():
+    """In the spheres' unit box a facet, a wall, a box and a clump."""
     O.bodies.append(utils.facet([Vector3(0, 0, .3), Vector3(1, 0, .3), Vector3(0, 1, .3)]))
     O.bodies.append(utils.wall(0, axis=2))
     O.bodies.append(utils.box((.5, .5, 1), (.5, .5, .02), fixed=True))
@@ -81,11 +146,10 @@ def run(name, periodic):
         O.periodic = True
         O.cell.hSize = scenes.matrix([[1, .2, 0], [0, 1, 0], [0, 0, 1]])
         O.cell.velGrad = scenes.matrix(np.diag([.01, 0, -.01]))
-        O.dt = 1
-        scenes.addSpheres(rng.uniform(0, 1, (50, 3)), rng.uniform(.05, .1, 50),
-                          rng.normal(size=(50, 3)) * .01)
-    else:
-        build(rng)
+    O.dt = 1
+    scenes.addSpheres(rng.uniform(0, 1, (50, 3)), rng.uniform(.05, .1, 50), rng.normal(size=(50, 3)) * .01)
+    if not periodic:
+        addOthers()
     collider = scenes.makeCollider(name)
     scenes.setEngines(collider, interactionLoop=scenes.loop('CurveLoop') if name == 'LebesgueCollider' else None)
     O.run(5, True)
@@ -106,18 +170,15 @@ def run(name, periodic):
 def buildFE():
     O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
     fe = w.FESolver()
-    fe.addPolygon(yadefrag.circle((0, 0), .1, 12), size=.05, material='m', velocity=(2, 0),
-                  smooth=True)
+    fe.addPolygon(yadefrag.circle((0, 0), .1, 12), size=.05, material='m', velocity=(2, 0), smooth=True)
     fe.addPolygon(yadefrag.rectangle((.102, -.1), (.2, .1)), size=.05, material='m')
-    ball = chain.ball((.15, .151), .05, O.materials['m'])
-    ball.state.vel = (0, -1, 0)
-    O.bodies.append(ball)
+    throwBall((.15, .151), .05, (0, -1), blocked='')
     engines(fe)
 
 
 def readAll(fe):
-    for name in ('nodes', 'velocities', 'displacements', 'masses', 'triangles', 'stress',
-                 'components', 'contactForces', 'surfaces', 'energy'):
+    for name in ('nodes', 'velocities', 'displacements', 'masses', 'triangles', 'stress', 'components', 'contactForces',
+                 'surfaces', 'energy'):
         assert len(getattr(fe, name))
     return fe.fragments()
 
@@ -133,21 +194,17 @@ def refuse(fe):
 def crack(finder):
     """A block that shatters: new bodies, bodies that go, saved in between."""
     O.reset()
-    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2500, tensileStrength=20e6,
-                                      frictionAngle=.2, strengthScatter=.1, label='b'))
+    O.materials.append(brittle(frictionAngle=.2, strengthScatter=.1, label='b'))
     fe = w.FESolver(minFragmentArea=6e-6)
     fe.addPolygon(yadefrag.rectangle((0, 0), (.02, .012)), size=.003, material='b', smooth=True)
-    fe.addPolygon(yadefrag.rectangle((.008, .0121), (.014, .018)), size=.003, material='b',
-                  velocity=(0, -60))
+    fe.addPolygon(yadefrag.rectangle((.008, .0121), (.014, .018)), size=.003, material='b', velocity=(0, -60))
     engines(fe, finder)
-    for _ in range(60):
-        O.step()
+    steps(60)
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
         O.save(os.path.join(folder, 'a.yade'))
         O.load(os.path.join(folder, 'a.yade'))
-    fe = O.engines[3]
-    for _ in range(60):
-        O.step()
+    fe = solverOfScene()
+    steps(60)
     readAll(fe)
     fe.fragments(held=True)
     assert fe.numCracks > 10 and fe.dropped['count'] > 0 and fe.fragmentOf.min() == -1
@@ -158,15 +215,13 @@ def crack(finder):
 def finiteElements():
     """All of FESolver."""
     buildFE()
-    for _ in range(60):
-        O.step()
+    steps(60)
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
         for name in ('a.xml', 'b.yade'):
             O.save(os.path.join(folder, name))
             O.load(os.path.join(folder, name))
-            for _ in range(20):
-                O.step()
-    fe = O.engines[3]
+            steps(20)
+    fe = solverOfScene()
     readAll(fe)
     refuse(fe)
     assert fe.numSearches > 0 and fe.energy['contact'] != 0
@@ -179,9 +234,12 @@ def finiteElements():
     O.reset()
 
 
-for className in sys.argv[1:]:
-    for isPeriodic in (False, True):
-        print(f'@@@ {className} {isPeriodic} {run(className, isPeriodic)}', flush=True)
-scenes.clear()
-finiteElements()
-print('\n@@@ done', flush=True)
+if sys.argv[1] == 'soak':
+    soak(float(sys.argv[2]))
+else:
+    for className in sys.argv[2:]:
+        for isPeriodic in (False, True):
+            print(f'@@@ {className} {isPeriodic} {run(className, isPeriodic)}', flush=True)
+    scenes.clear()
+    finiteElements()
+    print('\n@@@ done', flush=True)
