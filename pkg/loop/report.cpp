@@ -1,11 +1,8 @@
 // What a loop computes itself, in words.
 
-#include <boost/python.hpp>
-
 #include <map>
 #include <mutex>
 #include <string>
-#include <tuple>
 #include <typeinfo>
 
 #include "abi/helpers.hpp"
@@ -16,34 +13,20 @@ namespace yadefrag {
 
 namespace {
 
-// What all contacts of a kind have in common.
-using Kind =
-    std::tuple<std::string, std::string, const yade::IGeomFunctor*, const yade::LawFunctor*>;
-
-std::map<Kind, long> kindsOf(const yade::Scene& scene) {
-  std::map<Kind, long> kinds;
-  const auto& bodies = *scene.bodies;
-  const std::lock_guard lock(scene.interactions->drawloopmutex);
-  for (const auto& contact : *scene.interactions) {
-    const auto& cache = contact->functorCache;
-    if (!contact->isReal() || !cache.geom || !cache.constLaw) continue;
-    const auto shapeOf = [&](yade::Body::id_t id) {
-      const yade::Body* const body = bodyAt(bodies.body, id);
-      return body && body->shape ? body->shape->getClassName() : std::string("nothing");
-    };
-    ++kinds[{shapeOf(contact->id1), shapeOf(contact->id2), cache.geom.get(), cache.constLaw.get()}];
-  }
-  return kinds;
+std::string shapeOf(const yade::Scene& scene, yade::Body::id_t id) {
+  const yade::Body* const body = bodyAt(scene.bodies->body, id);
+  return body && body->shape ? body->shape->getClassName() : "no shape";
 }
 
 // Why YADE's functor computes the forces.
 std::string reasonOf(const yade::LawFunctor& functor, const yade::Scene& scene) {
-  std::string reason = "which the loop does not know";
+  std::string reason = ", which the loop does not know";
   forEachLaw([&]<class Law>() {
     if (typeid(functor) != typeid(typename Law::Functor)) return;
-    const char* const given =
+    const auto* const given =
         Law::reasonForYade(static_cast<const typename Law::Functor&>(functor), scene);
-    reason = given ? std::string("since ") + given : "since the loop computes one law of a scene";
+    reason = ", since ";
+    reason += given ? given : "the loop computes one law of a scene";
   });
   return reason;
 }
@@ -51,24 +34,26 @@ std::string reasonOf(const yade::LawFunctor& functor, const yade::Scene& scene) 
 }  // namespace
 
 std::string ContactLoop::report() const {
-  const yade::Scene& here = *yade::Omega::instance().getScene();
-  if (loopOnSortedInteractions) {
+  if (loopOnSortedInteractions)
     return "All contacts: by YADE's InteractionLoop, since loopOnSortedInteractions is set.";
-  }
+  const yade::Scene& here = *yade::Omega::instance().getScene();
   const auto* const spheres = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
   const yade::LawFunctor* known = nullptr;
   withLaw(*this, here, [&]<class Law>(const typename Law::Functor* functor) { known = functor; });
-  std::map<std::string, long> counts;  // in the order of their texts
-  for (const auto& [kind, count] : kindsOf(here)) {
-    const auto& [shape1, shape2, geometry, law] = kind;
-    std::string what = shape1;
-    what += " and ", what += shape2;
-    what += geometry == spheres ? ": geometry by the loop" : ": geometry by YADE's ";
-    if (geometry != spheres) what += geometry->getClassName();
-    what += law == known ? ", force by the loop, as " : ", force by YADE's ";
+  std::map<std::string, long> counts;
+  const std::lock_guard lock(here.interactions->drawloopmutex);
+  for (const auto& contact : *here.interactions) {
+    const auto& geom = contact->functorCache.geom;
+    const auto& law = contact->functorCache.constLaw;
+    if (!contact->isReal() || !geom || !law) continue;
+    std::string what = shapeOf(here, contact->id1);
+    what += " and ", what += shapeOf(here, contact->id2);
+    what += geom.get() == spheres ? ": geometry by the loop" : ": geometry by YADE's ";
+    if (geom.get() != spheres) what += geom->getClassName();
+    what += law.get() == known ? ", force by the loop, as " : ", force by YADE's ";
     what += law->getClassName();
-    if (law != known) what += ", ", what += reasonOf(*law, here);
-    counts[what] += count;
+    if (law.get() != known) what += reasonOf(*law, here);
+    ++counts[what];
   }
   std::string text;
   for (const auto& [what, count] : counts) {
