@@ -96,6 +96,21 @@ def test_periodicCell(kind):
     assert loop.fastForces == O.interactions.countReal()
 
 
+def test_clumps():
+    """Members count with masses of their own."""
+    def pairs():
+        scenes.clear()
+        O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+        chance = np.random.default_rng(4)
+        for place in np.ndindex(4, 5, 5):
+            at = np.array(place) * (1.55, .97, .97) + chance.uniform(-.02, .02, 3)
+            clump, _ = O.bodies.appendClumped([utils.sphere(at, .5), utils.sphere(at + (.6, 0, 0), .45)])
+            O.bodies[clump].state.vel = chance.normal(0, 2, 3)
+        O.dt = 1e-4
+    loop = requireSame(lambda: mindlin(*kOptions['all']), 160, build=pairs)
+    assert loop.fastForces == O.interactions.countReal() > 150
+
+
 def test_fewContactsPerBody():
     """With many bodies that touch nothing the loop reads bodies in place: the same bits."""
     def lonely():
