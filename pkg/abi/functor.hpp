@@ -213,4 +213,18 @@ class Law2_ScGeom_FrictPhys_CundallStrack : public LawFunctor {
   ~Law2_ScGeom_FrictPhys_CundallStrack() override;
 };
 
+class Law2_ScGeom_MindlinPhys_Mindlin : public LawFunctor {
+ public:
+  bool includeAdhesion;
+  bool calcEnergy;
+  bool includeMoment;
+  bool neverErase;
+  bool nothing;
+  Law2_ScGeom_MindlinPhys_Mindlin() = delete;
+  ~Law2_ScGeom_MindlinPhys_Mindlin() override;
+
+ private:
+  alignas(8) unsigned char energies_[96];
+};
+
 }  // namespace yade

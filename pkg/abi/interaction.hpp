@@ -86,6 +86,47 @@ class FrictPhys : public NormShearPhys {
   ~FrictPhys() override;
 };
 
+class RotStiffFrictPhys : public FrictPhys {
+ public:
+  Real kr;
+  Real ktw;
+
+  RotStiffFrictPhys() = delete;
+  ~RotStiffFrictPhys() override;
+};
+
+class MindlinPhys : public RotStiffFrictPhys {
+ public:
+  Real kno;
+  Real kso;
+  Real maxBendPl;
+  Vector3r normalViscous;
+  Vector3r shearViscous;
+  Vector3r shearElastic;
+  Vector3r usElastic;
+  Vector3r usTotal;
+  Vector3r momentBend;
+  Vector3r momentTwist;
+  Real radius;
+  Real adhesionForce;
+  bool isAdhesive;
+  bool isSliding;
+  Real betan;
+  Real betas;
+#if YADEFRAG_YADE >= 202502
+  Real beta;
+#endif
+  Vector3r prevU;
+  Eigen::Matrix<Real, 2, 1> Fs;
+#if YADEFRAG_YADE < 202502  // the feature PARTIALSAT
+  Real initD;
+  bool isBroken;
+#endif
+
+  MindlinPhys();
+  ~MindlinPhys() override;
+};
+
 class Interaction : public Serializable {
  public:
   bool isActive;

@@ -42,12 +42,14 @@ struct PairRows {
   [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {
     return geom && contact.geom.get() == geom && contact.phys.get() == phys;
   }
+  /// The geometry, and so many bytes of the physics.
+  template <std::size_t bytes>
   [[gnu::always_inline]] void request() const {
     if (!geom) return;
     const auto* const first = reinterpret_cast<const char*>(geom);
     const auto* const second = reinterpret_cast<const char*>(phys);
     requestLine(first), requestLine(first + 64), requestLine(first + 128);
-    requestLine(second), requestLine(second + 64);
+    for (std::size_t line = 0; line < bytes; line += 64) requestLine(second + line);
   }
   void note(const yade::Interaction& contact, bool isComputed) {
     geom = isComputed ? static_cast<yade::ScGeom*>(contact.geom.get()) : nullptr;
@@ -60,7 +62,7 @@ class BodyRows {
   /// What a step needs of the rows.
   enum class Use : std::uint8_t { kNone, kMotion, kMotionAndSums };
   /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
-  void begin(yade::Scene& scene, std::size_t numContacts, Use use, int threads);
+  void begin(yade::Scene& scene, std::size_t numContacts, Use use, bool areMassesUsed, int threads);
   /// Before `begin`: all rows are made anew in this step.
   void forget() { areValid_ = false; }
   /// True: both bodies of a contact exist, and one is of this process.
@@ -69,6 +71,7 @@ class BodyRows {
   static bool hasMotion(const yade::Body* body) { return body && body->state && body->shape; }
   /// The motion of a body that exists, for a contact that is evaluated in place; not the sums.
   static void read(const yade::Body& body, BodyRow& row);
+  static BodyMass massOf(const yade::Body& body) { return {body.state->mass, body.isDynamic()}; }
   /// True: there are no rows; sums are numbered by ids.
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
   /// Makes rows for all contacts that are new since the step before.
@@ -82,6 +85,8 @@ class BodyRows {
     return !isInPlace_ && firstPlaces_[row] >= place;
   }
   [[nodiscard]] const BodyRow& operator[](std::size_t row) const { return rows_[row]; }
+  /// Of a row, in a step that uses masses.
+  [[nodiscard]] const BodyMass& mass(std::size_t row) const { return masses_[row]; }
   /// True: both bodies exist, and one is of this process.
   [[nodiscard]] bool areHere(const PairRows& pair) const {
     return areHere(flags_[pair.row1], flags_[pair.row2]);
@@ -101,6 +106,9 @@ class BodyRows {
   /// Requests what a contact needs, before its turn.
   [[gnu::always_inline]] void request(const PairRows& pair) const {
     // There may be no rows yet.
+    if (areMassesUsed_) {
+      requestLine(masses_.data() + pair.row1), requestLine(masses_.data() + pair.row2);
+    }
     const BodyRow *const one = rows_.data() + pair.row1, *const two = rows_.data() + pair.row2;
     requestLine(one), requestLine(one->values + 8);
     requestLine(two), requestLine(two->values + 8);
@@ -142,12 +150,14 @@ class BodyRows {
 
   bool isInPlace_ = true;
   bool areSumsUsed_ = false;
+  bool areMassesUsed_ = false;
   bool areValid_ = false;
   std::size_t numNew_ = 0;               // contacts since all rows were made
   std::atomic<bool> areOthers_ = false;  // a body whose shape was a sphere has another one
   std::size_t numBodies_ = 0;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<BodyRow> rows_;
+  std::vector<BodyMass> masses_;            // by row; empty where they are not used
   std::vector<unsigned char> flags_;        // by row
   std::vector<std::uint32_t> firstPlaces_;  // by row: no contact of it is before
   std::vector<PairRows> pairs_;             // by place of the contact

@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 #include "fe/running.hpp"
+#include "loop/known_laws.hpp"
 
 namespace yadefrag {
 
@@ -37,7 +38,16 @@ void ContactLoop::action() try {
   const std::size_t size = scene->interactions->size();
   if (size == 0) return;
   threads = threadsFor(size, threadsOf(*this));
-  const PairStep step(*this, *scene);
+  withLaw(*this, *scene, [&]<class Law>(const typename Law::Functor* functor) {
+    run(PairStep<Law>(*this, *scene, functor), size);
+  });
+} catch (const std::exception& error) {
+  noteStop(error.what());
+  throw;
+}
+
+template <class Law>
+void ContactLoop::run(const PairStep<Law>& step, std::size_t size) {
   if (step.functors() != functors_) rows_.forget();
   functors_ = step.functors();
   using enum BodyRows::Use;
@@ -45,17 +55,15 @@ void ContactLoop::action() try {
               !step.computesGeometry() ? kNone
               : step.computesForces()  ? kMotionAndSums
                                        : kMotion,
-              threads);
+              Law::kUsesMasses && step.computesForces(), threads);
   if (!rows_.isInPlace()) rows_.findPairs(*scene, threads);
   evaluate(step, size);
   addLater();
   rows_.giveForces(*scene, threads);
-  if (fastForces > 0) memory_.endStep(*scene);
-} catch (const std::exception& error) {
-  noteStop(error.what());
-  throw;
+  if (fastForces > 0) memory_.endStep<typename Law::Phys>(*scene);
 }
 
+template <class Law>
 [[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place, std::size_t size) {
   using yade::Interaction;
   if (place + 2 * kAhead < size) {
@@ -64,7 +72,7 @@ void ContactLoop::action() try {
     requestLine(contact + offsetof(Interaction, id1));
     requestLine(contact + offsetof(Interaction, phys));
     const PairRows& pair = rows_(place + 2 * kAhead);
-    pair.request();
+    pair.request<Law::kBytes>();
     // A contact that has not begun: its functor.
     if (!pair.geom) requestLine(contact + offsetof(Interaction, functorCache.geom));
   }
@@ -115,7 +123,8 @@ void ContactLoop::action() try {
       });
 }
 
-void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
+template <class Law>
+void ContactLoop::evaluate(const PairStep<Law>& step, std::size_t size) {
   const std::size_t count = threads == 1 ? 1 : kPartsPerThread * static_cast<std::size_t>(threads);
   parts_.resize(count);
   const auto evaluateOne = [&](std::size_t number) {
@@ -130,21 +139,29 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
 
 // Most of the time of a step is spent here: without the attributes a compiler that sees many
 // sources at once leaves vector products as calls.
-[[gnu::always_inline]] inline void ContactLoop::evaluatePart(const PairStep& step, std::size_t size,
-                                                             Part& part) {
-  Evaluation evaluation{step};
+template <class Law>
+[[gnu::always_inline]] inline void ContactLoop::evaluatePart(const PairStep<Law>& step,
+                                                             std::size_t size, Part& part) {
+  Evaluation<Law> evaluation{step};
   part.later.clear();
   for (std::size_t place = part.begin; place < part.end; ++place) {
     if (!evaluateContact(evaluation, place, size)) continue;
     ++evaluation.forces;
-    const ContactForce& contact = evaluation.force;
+    const auto& contact = evaluation.force;
     add(evaluation.row1, contact.force, contact.torque1, part);
     add(evaluation.row2, -contact.force, contact.torque2, part);
+    // Apart, as YADE adds it: a sum of both torques would have other bits.
+    if constexpr (requires { contact.moment; }) {
+      if (!contact.hasMoment) continue;
+      add(evaluation.row1, FourLanes{}, -contact.moment, part);
+      add(evaluation.row2, FourLanes{}, contact.moment, part);
+    }
   }
   part.geometries = evaluation.fast, part.forces = evaluation.forces;
 }
 
-[[gnu::always_inline]] inline bool ContactLoop::evaluateContact(Evaluation& evaluation,
+template <class Law>
+[[gnu::always_inline]] inline bool ContactLoop::evaluateContact(Evaluation<Law>& evaluation,
                                                                 std::size_t place,
                                                                 std::size_t size) {
   const Contact& contact = (*scene->interactions)[place];
@@ -152,7 +169,7 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
     if (evaluation.step.usesMotion()) requestInPlace(place, size);
     return evaluateInPlace(evaluation, contact);
   }
-  requestAhead(place, size);
+  requestAhead<Law>(place, size);
   PairRows& pair = rows_(place);
   if (!rows_.areHere(pair)) {
     contact->reset();
@@ -167,11 +184,16 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
   }
   ++evaluation.fast;
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
+  const auto masses = [&]() __attribute__((always_inline)) {
+    return std::pair(rows_.mass(pair.row1), rows_.mass(pair.row2));
+  };
   return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],
-                                       rows_[pair.row2], evaluation.force);
+                                       rows_[pair.row2], masses, evaluation.force);
 }
 
-bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact, PairRows& pair) {
+template <class Law>
+bool ContactLoop::evaluateOther(Evaluation<Law>& evaluation, const Contact& contact,
+                                PairRows& pair) {
   pair.matchOrder(*contact);
   const auto call = [&] {
     return evaluation.step.evaluate(contact, rows_[pair.row1], rows_[pair.row2], evaluation.fast,
@@ -187,7 +209,8 @@ bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact, 
   return isForce;
 }
 
-bool ContactLoop::evaluateInPlace(Evaluation& evaluation, const Contact& contact) const {
+template <class Law>
+bool ContactLoop::evaluateInPlace(Evaluation<Law>& evaluation, const Contact& contact) const {
   if (evaluation.step.computesGeometry() && evaluation.step.isFarApart(*contact)) return false;
   if (!BodyRows::areHere(*scene, *contact)) {
     contact->reset();

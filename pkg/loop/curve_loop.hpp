@@ -12,6 +12,8 @@ namespace yadefrag {
 class ContactLoop : public yade::InteractionLoop {
  public:
   void action() override;
+  /// A sentence for each kind of contact that the scene has.
+  [[nodiscard]] std::string report() const;
 
   long fastGeometries = 0;
   long fastForces = 0;
@@ -28,9 +30,9 @@ class ContactLoop : public yade::InteractionLoop {
             "Ig2_Sphere_Sphere_ScGeom does; that of all others was computed by YADE's functors.",
             readonly | noSave),
         attribute("fastForces", &C::fastForces,
-                  "Number of contacts in the last step whose forces the loop computed itself, as "
-                  "Law2_ScGeom_FrictPhys_CundallStrack does; those of all others were computed by "
-                  "YADE's functors.",
+                  "Number of contacts in the last step whose forces the loop computed itself; "
+                  "those of all "
+                  "others were computed by YADE's functors. See report().",
                   readonly | noSave),
         attribute(
             "threads", &C::threads,
@@ -40,7 +42,7 @@ class ContactLoop : public yade::InteractionLoop {
   }
 
  private:
-  using Contact = PairStep::Contact;
+  using Contact = PairFunctors::Contact;
   /// A force that is added to the sums of a body after the parallel loop.
   struct BodyForce {
     double force[3], torque[3];
@@ -54,31 +56,44 @@ class ContactLoop : public yade::InteractionLoop {
     std::vector<BodyForce> later;
   };
   /// What one thread evaluates.
+  template <class Law>
   struct Evaluation {
-    const PairStep& step;
+    const PairStep<Law>& step;
     long fast = 0;    // geometries that the loop computed
     long forces = 0;  // and forces
-    ContactForce force = {};
+    typename Law::Force force = {};
     std::uint32_t row1 = 0, row2 = 0;
   };
 
+  template <class Law>
+  void run(const PairStep<Law>& step, std::size_t size);
+  template <class Law>
   void requestAhead(std::size_t place, std::size_t size);
   void requestInPlace(std::size_t place, std::size_t size) const;
-  void evaluate(const PairStep& step, std::size_t size);
-  void evaluatePart(const PairStep& step, std::size_t size, Part& part);
+  template <class Law>
+  void evaluate(const PairStep<Law>& step, std::size_t size);
+  template <class Law>
+  void evaluatePart(const PairStep<Law>& step, std::size_t size, Part& part);
   /// These return false if there is no force, or YADE's law has added it.
-  bool evaluateContact(Evaluation& evaluation, std::size_t place, std::size_t size);
-  [[gnu::noinline]] bool evaluateOther(Evaluation& evaluation, const Contact& contact,
+  template <class Law>
+  bool evaluateContact(Evaluation<Law>& evaluation, std::size_t place, std::size_t size);
+  template <class Law>
+  [[gnu::noinline]] bool evaluateOther(Evaluation<Law>& evaluation, const Contact& contact,
                                        PairRows& pair);
-  [[gnu::noinline]] bool evaluateInPlace(Evaluation& evaluation, const Contact& contact) const;
+  template <class Law>
+  [[gnu::noinline]] bool evaluateInPlace(Evaluation<Law>& evaluation, const Contact& contact) const;
   void add(std::uint32_t row, const FourLanes& force, const FourLanes& torque, Part& part);
   void addLater();
 
   BodyRows rows_;
   ContactMemory memory_;
-  PairStep::Functors functors_ = {};  // of the last step
+  PairFunctors::Functors functors_ = {};  // of the last step
   std::vector<Part> parts_;
 };
+
+class CurveLoop;
+using LoopClass = yade::py::class_<CurveLoop, boost::shared_ptr<CurveLoop>,
+                                   yade::py::bases<yade::InteractionLoop>, boost::noncopyable>;
 
 class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::InteractionLoop> {
  public:
@@ -86,11 +101,13 @@ class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::Interacti
   static constexpr const char* kDoc =
       "InteractionLoop for many contacts of spheres: CurveLoop([Ig2...], [Ip2...], [Law2...]), "
       "with the same arguments, functors, attributes and results. Contacts of "
-      "Ig2_Sphere_Sphere_ScGeom and of Law2_ScGeom_FrictPhys_CundallStrack (while no energies are "
-      "traced) are computed by the loop itself with the same formulas and the same bits; all "
-      "others by YADE's functors. Forces are added in the order of O.interactions: if all laws are "
+      "Ig2_Sphere_Sphere_ScGeom, of Law2_ScGeom_FrictPhys_CundallStrack and of "
+      "Law2_ScGeom_MindlinPhys_Mindlin (while no energies are traced) are computed by the loop "
+      "itself with the same formulas and the same bits; all others by YADE's functors: report() "
+      "says which. Forces are added in the order of O.interactions: if all laws are "
       "of this kind, every bit is the same for any number of threads. Raises RuntimeError if no "
       "functor accepts the materials or the contact, where InteractionLoop ends the process.";
+  static void pyExtra(LoopClass& loop);
 };
 
 }  // namespace yadefrag

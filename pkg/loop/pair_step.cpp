@@ -3,35 +3,13 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <typeinfo>
 
 #include "abi/helpers.hpp"
+#include "loop/known_laws.hpp"
 
 namespace yadefrag {
 
 namespace {
-
-// The functor of exactly this class, whose formulas are known; a derived one has others.
-template <class Known, class Functor>
-const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
-  for (const auto& functor : functors) {
-    const Functor& one = *functor;
-    if (typeid(one) == typeid(Known)) return static_cast<const Known*>(&one);
-  }
-  return nullptr;
-}
-
-// By the name of its type: getClassName() would allocate memory in each step.
-const yade::IPhysFunctor* frictionOf(
-    const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors) {
-  for (const auto& functor : functors) {
-    const yade::IPhysFunctor& one = *functor;
-    if (typeid(one).name() == std::string_view("N4yade31Ip2_FrictMat_FrictMat_FrictPhysE"))
-      return &one;
-  }
-  return nullptr;
-}
 
 std::string bodiesOf(const yade::Interaction& contact) {
   return "the bodies " + std::to_string(contact.id1) + " and " + std::to_string(contact.id2);
@@ -39,11 +17,11 @@ std::string bodiesOf(const yade::Interaction& contact) {
 
 }  // namespace
 
-PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop), scene_(scene) {
+PairFunctors::PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene,
+                           const yade::LawFunctor* law, std::string_view properties)
+    : loop_(loop), scene_(scene), law_(law) {
   spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
-  friction_ = frictionOf(loop.physDispatcher->functors);
-  law_ = exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(loop.lawDispatcher->functors);
-  if (law_ && (law_->traceEnergy || scene.trackEnergy)) law_ = nullptr;
+  properties_ = functorOf(loop.physDispatcher->functors, properties);
   for (const auto& callback : loop.callbacks) {
     callback->scene = &scene;
     if (const auto function = callback->stepInit()) {
@@ -51,13 +29,13 @@ PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop
     }
   }
   const long lastRun = scene.interactions->iterColliderLastRun;
-  isAllKnown_ = spheres_ && friction_ && law_ && callbacks_.empty();
+  isAllKnown_ = spheres_ && properties_ && law_ && callbacks_.empty();
   removesUnseen_ = lastRun >= 0 && lastRun == scene.iter;
 }
 
 // YADE's InteractionLoop::action, for one interaction.
-bool PairStep::evaluate(const Contact& contact, const BodyRow& one, const BodyRow& two,
-                        long& fastGeometries, ContactForce& force) const {
+bool PairFunctors::update(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                          long& fastGeometries) const {
   if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return false;
   const auto id1 = contact->id1;
   // A clump has no sphere of its own.
@@ -69,21 +47,21 @@ bool PairStep::evaluate(const Contact& contact, const BodyRow& one, const BodyRo
     return false;
   }
   const bool isSwapped = contact->id1 != id1;
-  const BodyRow &first = isSwapped ? two : one, &second = isSwapped ? one : two;
   const bool wasReal = contact->isReal();
-  if (!updateGeometryOf(contact, first, second, fastGeometries)) {
+  if (!updateGeometryOf(contact, isSwapped ? two : one, isSwapped ? one : two, fastGeometries)) {
     if (wasReal) contact->reset();
     return false;
   }
   updateProperties(contact, wasReal);
-  const bool isForce = applyLaw(contact, first, second, force);
-  if (contact->isReal()) {
-    for (const auto& [callback, function] : callbacks_) function(callback, contact.get());
-  }
-  return isForce;
+  return true;
 }
 
-bool PairStep::isFarApart(const yade::Interaction& contact) const {
+void PairFunctors::callBack(const Contact& contact) const {
+  if (!contact->isReal()) return;
+  for (const auto& [callback, function] : callbacks_) function(callback, contact.get());
+}
+
+bool PairFunctors::isFarApart(const yade::Interaction& contact) const {
   if (!isKnownPair(contact) || contact.isReal()) return false;
   const auto& bodies = scene_.bodies->body;
   const yade::Body *const body1 = bodyAt(bodies, contact.id1), *const body2 =
@@ -99,7 +77,7 @@ bool PairStep::isFarApart(const yade::Interaction& contact) const {
                   radiusOf(*body2));
 }
 
-ImageShift PairStep::periodicShift(const yade::Interaction& contact) const {
+ImageShift PairFunctors::periodicShift(const yade::Interaction& contact) const {
   const yade::Vector3r distance = scene_.cell->intrShiftPos(contact.cellDist);
   const yade::Vector3r velocity =
       (*scene_.cell).*exposed(GradientTimesCell{}) * contact.cellDist.cast<double>();
@@ -107,7 +85,7 @@ ImageShift PairStep::periodicShift(const yade::Interaction& contact) const {
 }
 
 // False: no functor accepts the two shapes. The order of the bodies may be swapped.
-bool PairStep::chooseGeometry(yade::Interaction& contact) const {
+bool PairFunctors::chooseGeometry(yade::Interaction& contact) const {
   const yade::Body &body1 = bodyOf(contact.id1), &body2 = bodyOf(contact.id2);
   if (!contact.functorCache.geomExists) return false;
   if (contact.functorCache.geom) return true;
@@ -120,16 +98,14 @@ bool PairStep::chooseGeometry(yade::Interaction& contact) const {
 }
 
 // False: they do not touch.
-bool PairStep::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
-                                long& fastGeometries) const {
+bool PairFunctors::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                                    long& fastGeometries) const {
   if (isKnownPair(*contact)) {
     if (!contact->isReal() && areApart(*contact, one, two)) return false;
     if (contact->geom) {
       ++fastGeometries;
       auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
-      nextGeometry(loadThree(geom.normal.data()), one, two, shiftOf(*contact), scene_.dt,
-                   spheres_->avoidGranularRatcheting)
-          .write(geom);
+      updateGeometry(geom, one, two, shiftOf(*contact));
       return true;
     }
   }
@@ -140,7 +116,7 @@ bool PairStep::updateGeometryOf(const Contact& contact, const BodyRow& one, cons
                                         false, contact);
 }
 
-void PairStep::updateProperties(const Contact& contact, bool wasReal) const {
+void PairFunctors::updateProperties(const Contact& contact, bool wasReal) const {
   const yade::Body &body1 = bodyOf(contact->id1), &body2 = bodyOf(contact->id2);
   auto& functor = contact->functorCache.phys;
   if (!functor) {
@@ -158,14 +134,14 @@ void PairStep::updateProperties(const Contact& contact, bool wasReal) const {
                                " of " + bodiesOf(*contact) + ".");
     }
   }
-  // YADE's functor for friction does nothing for a contact that has its properties.
-  if (functor.get() != friction_ || !contact->phys) {
+  // The known functor does nothing for a contact that has its properties.
+  if (functor.get() != properties_ || !contact->phys) {
     functor->go(body1.material, body2.material, contact);
   }
   if (!wasReal) contact->iterMadeReal = scene_.iter;
 }
 
-void PairStep::chooseLaw(yade::Interaction& contact) const {
+void PairFunctors::chooseLaw(yade::Interaction& contact) const {
   bool isSwapped = false;
   contact.functorCache.constLaw =
       loop_.lawDispatcher->getFunctor2D(contact.geom, contact.phys, isSwapped);
@@ -177,16 +153,12 @@ void PairStep::chooseLaw(yade::Interaction& contact) const {
 }
 
 // A contact that has ended is reset.
-bool PairStep::applyLaw(const Contact& contact, const BodyRow& one, const BodyRow& two,
-                        ContactForce& force) const {
-  if (!contact->functorCache.constLaw) chooseLaw(*contact);
-  auto& law = *contact->functorCache.constLaw;
-  if (!law_ || &law != law_) {
-    if (!law.go(contact->geom, contact->phys, contact.get())) contact->reset();
-    return false;
-  }
-  return addLaw(*contact, ContactGeometry::read(static_cast<yade::ScGeom&>(*contact->geom)),
-                static_cast<yade::FrictPhys&>(*contact->phys), one, two, shiftOf(*contact), force);
+bool PairFunctors::isLeftToYade(yade::Interaction& contact) const {
+  if (!contact.functorCache.constLaw) chooseLaw(contact);
+  auto& law = *contact.functorCache.constLaw;
+  if (law_ && &law == law_) return false;
+  if (!law.go(contact.geom, contact.phys, &contact)) contact.reset();
+  return true;
 }
 
 }  // namespace yadefrag

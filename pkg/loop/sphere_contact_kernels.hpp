@@ -1,11 +1,8 @@
 #pragma once
-// Geometry and force of a contact of two spheres: the formulas of YADE's Ig2_Sphere_Sphere_ScGeom
-// and Law2_ScGeom_FrictPhys_CundallStrack, in the order of their operations, so that every bit is
-// the same. They are inline: YADE's are reached through three virtual calls and copies of shared
-// pointers.
-
-#include <algorithm>
-#include <cmath>
+// Geometry of a contact of two spheres, and what laws have in common: the formulas of YADE's
+// Ig2_Sphere_Sphere_ScGeom in the order of their operations, so that every bit is the same. They
+// are inline, as the laws are (`contact_law.hpp`): YADE's are reached through three virtual calls
+// and copies of shared pointers.
 
 #include "core/four_lanes.hpp"
 #include "loop/exposed.hpp"
@@ -46,6 +43,12 @@ struct alignas(64) BodyRow {
   }
 };
 
+/// What laws with damping need of a body besides its row.
+struct BodyMass {
+  double mass;  // kg
+  bool isDynamic;
+};
+
 /// Distance (m) from a body to its image that is in contact, and the difference of their velocities
 /// (m/s).
 struct ImageShift {
@@ -84,13 +87,21 @@ struct ContactGeometry {
   }
 };
 
+/// Velocity (m/s) of the second body relative to the first one at a point of both.
+[[gnu::always_inline]] inline FourLanes velocityAt(const FourLanes& point, const BodyRow& one,
+                                                   const BodyRow& two, const ImageShift& shift) {
+  const FourLanes arm1 = point - one.position();
+  const FourLanes arm2 = point - (two.position() + shift.distance);
+  return (two.velocity() + cross(two.spin(), arm2)) - (one.velocity() + cross(one.spin(), arm1)) +
+         shift.velocity;
+}
+
 /// The geometry after a step of `dt` (s), from the normal of the step before.
 [[gnu::always_inline]] inline ContactGeometry nextGeometry(const FourLanes& lastNormal,
                                                            const BodyRow& one, const BodyRow& two,
                                                            const ImageShift& shift, double dt,
                                                            bool avoidsRatcheting) {
   const FourLanes position1 = one.position(), position2 = two.position() + shift.distance;
-  const FourLanes velocity1 = one.velocity(), velocity2 = two.velocity();
   const FourLanes spin1 = one.spin(), spin2 = two.spin();
   ContactGeometry next;
   next.radius1 = one.radius(), next.radius2 = two.radius();
@@ -106,35 +117,22 @@ struct ContactGeometry {
   FourLanes velocity;
   if (avoidsRatcheting) {
     const double alpha = radii / (radii - next.depth);
-    velocity = (velocity2 - velocity1) * alpha + cross(spin2, -next.radius2 * next.normal) -
+    velocity = (two.velocity() - one.velocity()) * alpha +
+               cross(spin2, -next.radius2 * next.normal) -
                cross(spin1, next.radius1 * next.normal) + alpha * shift.velocity;
   } else {
-    velocity = (velocity2 + cross(spin2, next.point - position2)) -
-               (velocity1 + cross(spin1, next.point - position1)) + shift.velocity;
+    velocity = velocityAt(next.point, one, two, shift);
   }
   velocity = velocity - dot(next.normal, velocity) * next.normal;
   next.shearing = velocity * dt;
   return next;
 }
 
-/// Elastic normal force and shear force limited by friction; returns the force on the second body.
-/// Energies are not counted. The bodies touch, or the contact is kept without forces.
-[[gnu::always_inline]] inline FourLanes updateForces(const ContactGeometry& geometry,
-                                                     yade::FrictPhys& phys) {
-  const FourLanes normalForce = phys.kn * std::max(geometry.depth, 0.) * geometry.normal;
-  storeThree(normalForce, phys.normalForce.data());
-  FourLanes shear = loadThree(phys.shearForce.data());
-  if (geometry.depth < 0) shear = FourLanes{};
-  shear -= cross(shear, geometry.turn);
-  shear -= cross(shear, geometry.twist);
-  shear -= phys.ks * geometry.shearing;
-  const double tangent = phys.tangensOfFrictionAngle;
-  const double limit = squaredNorm(normalForce) * (tangent * tangent);
-  if (const double square = squaredNorm(shear); square > limit) {
-    shear *= std::sqrt(limit) / std::sqrt(square);
-  }
-  storeThree(shear, phys.shearForce.data());
-  return normalForce + shear;
+/// A vector in the plane of the contact, turned with it.
+[[gnu::always_inline]] inline FourLanes turned(const FourLanes& vector,
+                                               const ContactGeometry& geometry) {
+  const FourLanes first = vector - cross(vector, geometry.turn);
+  return first - cross(first, geometry.twist);
 }
 
 /// `arePointsOfSpheres`: arms from the radii; otherwise from the contact point. `place2` is the

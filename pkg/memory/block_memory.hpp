@@ -156,11 +156,12 @@ class BodyMemory {
   ScatterWatch states_;
 };
 
-/// Moves geometry and physics of each contact of YADE's classes ScGeom and FrictPhys together, in
-/// the order of the scene's contacts, when they are scattered. Objects that anything else than the
-/// contact refers to (a variable in Python) stay where they are.
+/// Moves geometry and physics of each contact of YADE's classes ScGeom and `Phys`, FrictPhys or
+/// MindlinPhys, together, in the order of the scene's contacts, when they are scattered. Objects
+/// that anything else than the contact refers to (a variable in Python) stay where they are.
 class ContactMemory {
  public:
+  template <class Phys>
   void endStep(yade::Scene& scene);
 
  private:

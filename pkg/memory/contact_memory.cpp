@@ -1,3 +1,6 @@
+#include <concepts>
+#include <cstring>
+
 #include "loop/exposed.hpp"
 #include "memory/block_memory.hpp"
 
@@ -15,51 +18,50 @@ void copyGeometry(const yade::ScGeom& from, yade::ScGeom& to) {
   to.shearInc = from.shearInc;
 }
 
-// YADE from 2026.1 on.
-template <class Physics>
-constexpr bool kHasDissipation = requires(Physics physics) {
-  physics.frictDissip;
-};
-
-template <class Physics>
-void copyPhysics(const Physics& from, Physics& to) {
-  to.kn = from.kn, to.ks = from.ks;
-  to.normalForce = from.normalForce, to.shearForce = from.shearForce;
-  to.tangensOfFrictionAngle = from.tangensOfFrictionAngle;
-  if constexpr (kHasDissipation<Physics>) to.frictDissip = from.frictDissip;
+// From the stiffness on FrictPhys and MindlinPhys consist of numbers.
+template <class Phys>
+void copyPhysics(const Phys& from, Phys& to) {
+  const auto begin = reinterpret_cast<const char*>(&from.kn) - reinterpret_cast<const char*>(&from);
+  std::memcpy(reinterpret_cast<char*>(&to) + begin, reinterpret_cast<const char*>(&from) + begin,
+              sizeof(Phys) - static_cast<std::size_t>(begin));
 }
 
 // Bytes from the geometry of one contact to that of the next.
-constexpr std::size_t kContactBytes =
-    Block::wholeLines(sizeof(yade::ScGeom) + sizeof(yade::FrictPhys));
+template <class Phys>
+constexpr std::size_t kContactBytes = Block::wholeLines(sizeof(yade::ScGeom) + sizeof(Phys));
 
-// A YADE that its user built may have more members, by its options: nothing is moved there.
-constexpr bool kAreAllMembersKnown =
-    sizeof(yade::ScGeom) == 192 &&
-    sizeof(yade::FrictPhys) == (kHasDissipation<yade::FrictPhys> ? 112 : 104);
+// A YADE that its user built may have more members, by its options: nothing is moved there. With
+// all that are known: dissipation (2026.1), PARTIALSAT.
+template <class Phys>
+constexpr bool kAreAllMembersKnown = sizeof(yade::ScGeom) == 192 &&
+                                     sizeof(Phys) <=
+                                         (std::derived_from<Phys, yade::MindlinPhys> ? 424 : 112);
 
+template <class Phys>
 void moveTogether(yade::Scene& scene) {
   const OthersWait others(scene);
   BlockFiller filler;
   for (const auto& contact : *scene.interactions) {
-    if (!isMovable<yade::ScGeom>(contact->geom) || !isMovable<yade::FrictPhys>(contact->phys)) {
-      continue;
-    }
-    filler.begin(kContactBytes);
+    if (!isMovable<yade::ScGeom>(contact->geom) || !isMovable<Phys>(contact->phys)) continue;
+    filler.begin(kContactBytes<Phys>);
     moveInto<yade::ScGeom>(filler, contact->geom, copyGeometry);
-    moveInto<yade::FrictPhys>(filler, contact->phys, copyPhysics<yade::FrictPhys>);
+    moveInto<Phys>(filler, contact->phys, copyPhysics<Phys>);
   }
 }
 
 }  // namespace
 
+template <class Phys>
 void ContactMemory::endStep(yade::Scene& scene) {
-  if (!kAreAllMembersKnown) return;
+  if (!kAreAllMembersKnown<Phys>) return;
   const auto visitAll = [&](const auto& visit) {
     for (const auto& contact : *scene.interactions)
       if (contact->isReal()) visit(contact->geom.get());
   };
-  if (geometries_.endStep(kContactBytes, visitAll)) moveTogether(scene);
+  if (geometries_.endStep(kContactBytes<Phys>, visitAll)) moveTogether<Phys>(scene);
 }
+
+template void ContactMemory::endStep<yade::FrictPhys>(yade::Scene& scene);
+template void ContactMemory::endStep<yade::MindlinPhys>(yade::Scene& scene);
 
 }  // namespace yadefrag

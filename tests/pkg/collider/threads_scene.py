@@ -41,15 +41,19 @@ def gas(collider, kind):
         scenes.addSpheres(np.random.default_rng(number).uniform(0, 1, (40, 3)), [.02] * 40)
 
 
-def stirred(collider, _):
+def stirred(collider, kind):
     """CurveLoop: contacts go and come, and so do bodies, for which rows are made."""
     packing((12, 12, 8), .97, 1e-4, isTurning=True)
-    loop = w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                       [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+    if kind == 'mindlin':
+        functors = [w.Ip2_FrictMat_FrictMat_MindlinPhys(en=.5, gamma=3e3, krot=4e3, ktwist=2e3, eta=.02)], \
+            [w.Law2_ScGeom_MindlinPhys_Mindlin(includeAdhesion=True, includeMoment=True)]
+    else:
+        functors = [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]
+    loop = w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], *functors)
     scenes.setEngines(collider, interactionLoop=loop)
     for number, steps in enumerate((1, 1, 60, 60), 1):
         O.run(steps, True)
-        assert loop.threads == O.numThreads
+        assert loop.threads == O.numThreads and loop.fastForces == O.interactions.countReal()
         yield moment(hasForces=True)
         O.bodies.erase(5 * steps)
         scenes.addSpheres([(6, 6, 10 + 2 * number)], [.5], dynamic=True)
@@ -72,7 +76,7 @@ def moment(hasForces=False):
         repr(interactions).encode() + np.array(rows, float).tobytes()).hexdigest())
 
 
-kScenes = dict(gas=gas, mixed=gas, periodic=gas, stirred=stirred, NewtonIntegrator=falling, CurveIntegrator=falling)
+kScenes = dict(gas=gas, mixed=gas, periodic=gas, stirred=stirred, mindlin=stirred, NewtonIntegrator=falling, CurveIntegrator=falling)
 
 if __name__ == '__main__':
     for kind in sys.argv[2:]:

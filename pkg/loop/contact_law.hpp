@@ -1,0 +1,64 @@
+#pragma once
+// What a law is for the loop. A new one is a file as `cundall_strack.hpp` and a name in
+// `known_laws.hpp`.
+
+#include <concepts>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "loop/sphere_contact_kernels.hpp"
+
+namespace yadefrag {
+
+/// A contact in a step, as laws see it. `masses()` reads those of both bodies: only laws for which
+/// `kUsesMasses` holds may call it.
+template <class Masses>
+struct ContactView {
+  const yade::Interaction& contact;
+  const ContactGeometry& geometry;
+  const BodyRow& one;
+  const BodyRow& two;
+  const ImageShift& shift;
+  const Masses& masses;
+
+  /// Of the second body, or of its image that is in contact.
+  [[gnu::always_inline]] [[nodiscard]] FourLanes position2() const {
+    return two.position() + shift.distance;
+  }
+};
+
+/// (kg) Of two bodies, of which one may not obey forces.
+inline double reducedMass(const std::pair<BodyMass, BodyMass>& bodies) {
+  const auto& [one, two] = bodies;
+  if (!one.isDynamic && two.isDynamic) return two.mass;
+  if (!two.isDynamic && one.isDynamic) return one.mass;
+  return one.mass * two.mass / (one.mass + two.mass);
+}
+
+using AnyMasses = std::pair<BodyMass, BodyMass> (*)();
+
+/// The formulas of one of YADE's laws, in the order of its operations, so that every bit is the
+/// same; one object for a step, used by all threads at once.
+template <class Law>
+concept ContactLaw = requires(const Law& law, const typename Law::Functor& functor,
+                              const yade::Scene& scene, const ContactView<AnyMasses>& view,
+                              typename Law::Phys& phys, typename Law::Force& force) {
+  requires std::derived_from<typename Law::Functor, yade::LawFunctor>;
+  requires std::derived_from<typename Law::Phys, yade::FrictPhys>;
+  // What is added to the two bodies; it may have a `moment` (N m), which is then added to the
+  // second body, and its opposite to the first one, if `hasMoment`.
+  requires std::derived_from<typename Law::Force, ContactForce>;
+  // Type of the functor that leaves properties as they are once a contact has them.
+  { Law::kProperties } -> std::convertible_to<std::string_view>;
+  { Law::kUsesMasses } -> std::convertible_to<bool>;
+  // Bytes of `Phys` that the law reads and writes.
+  { Law::kBytes } -> std::convertible_to<std::size_t>;
+  // Why YADE's functor must be called; null: the law computes what it computes.
+  { Law::reasonForYade(functor, scene) } -> std::same_as<const char*>;
+  Law(functor, scene);
+  // False: the contact has ended.
+  { law.apply(view, phys, force) } -> std::same_as<bool>;
+};
+
+}  // namespace yadefrag

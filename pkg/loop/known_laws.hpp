@@ -1,0 +1,68 @@
+#pragma once
+// The laws whose forces the loop computes, and the choice of one for a step.
+
+#include <tuple>
+#include <typeinfo>
+
+#include "loop/cundall_strack.hpp"
+#include "loop/hertz_mindlin.hpp"
+
+namespace yadefrag {
+
+using KnownLaws = std::tuple<CundallStrack, HertzMindlin>;
+
+/// The functor of exactly this class, whose formulas are known; a derived one has others.
+template <class Known, class Functor>
+const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
+  for (const auto& functor : functors) {
+    const Functor& one = *functor;
+    if (typeid(one) == typeid(Known)) return static_cast<const Known*>(&one);
+  }
+  return nullptr;
+}
+
+/// By the name of its type: getClassName() would allocate memory in each step.
+inline const yade::IPhysFunctor* functorOf(
+    const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors, std::string_view type) {
+  for (const auto& functor : functors) {
+    const yade::IPhysFunctor& one = *functor;
+    if (typeid(one).name() == type) return &one;
+  }
+  return nullptr;
+}
+
+/// Calls `visit.operator()<Law>()` for each known law.
+template <class Visit>
+void forEachLaw(const Visit& visit) {
+  [&]<class... Laws>(const std::tuple<Laws...>*) {
+    (visit.template operator()<Laws>(), ...);
+  }(static_cast<const KnownLaws*>(nullptr));
+}
+
+/// Null: the loop lacks the functor, or YADE must call it.
+template <ContactLaw Law>
+const typename Law::Functor* computed(const yade::InteractionLoop& loop, const yade::Scene& scene) {
+  const auto* const functor = exactly<typename Law::Functor>(loop.lawDispatcher->functors);
+  return functor && !Law::reasonForYade(*functor, scene) ? functor : nullptr;
+}
+
+/// Calls `run.operator()<Law>(functor)` once: for the first law that the loop can compute, if
+/// possible one whose properties it has; null: YADE's functors compute all forces.
+template <class Run>
+void withLaw(const yade::InteractionLoop& loop, const yade::Scene& scene, const Run& run) {
+  bool hasRun = false;
+  for (const bool needsProperties : {true, false}) {
+    forEachLaw([&]<class Law>() {
+      if (hasRun) return;
+      const auto* const functor = computed<Law>(loop, scene);
+      if (!functor ||
+          (needsProperties && !functorOf(loop.physDispatcher->functors, Law::kProperties)))
+        return;
+      hasRun = true;
+      run.template operator()<Law>(functor);
+    });
+  }
+  if (!hasRun) run.template operator()<CundallStrack>(nullptr);
+}
+
+}  // namespace yadefrag
