@@ -155,8 +155,24 @@ void Cohesion::relax(std::vector<Vec2>& position, Point& point) {
   apply(position, point, point.change);
 }
 
-/// Sweeps over points that share nodes, starting from the tractions of the last step. Returns the
-/// largest change in the last sweep, divided by the strength.
+/// (1) Largest change of an opening since the last call, divided by the opening by the strength.
+double Cohesion::opened(const std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
+  double most = 0;
+  for (const std::uint32_t i : group) {
+    Point& point = points_[i];
+    const AcrossAlong& compliance = point.hold.compliance;
+    const Vec2 now = position[point.there.value] - position[point.here.value];
+    const double change = norm(now - std::exchange(point.opening, now));
+    most =
+        std::max(most, change / (point.strength * std::max(compliance.normal, compliance.shear)));
+  }
+  return most;
+}
+
+/// Sweeps over points that share nodes, starting from the tractions of the last step, until no
+/// traction changes any more, or no opening: around a node that is split all round, tractions that
+/// move no node can grow by the same amount in each sweep. Returns the largest change in the last
+/// sweep, divided by the strength.
 double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
   assert(!group.empty());
   for (const std::uint32_t i : group) points_[i].change = {};
@@ -175,6 +191,9 @@ double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_
     worst = std::sqrt(worst);
     if (group.size() == 1 && points_[group[0]].isEven) return 0;  // exact after one solution
     if (worst <= tolerance::kCohesionChange) break;
+    if (sweep % tolerance::kSweepsToSumUp == 0 &&
+        opened(position, group) <= tolerance::kSameOpening)
+      return 0;
     const bool isSeries =
         common > 0 && common < before && common * common >= tolerance::kSameChange * now * before;
     if (!isSeries || sweep % tolerance::kSweepsToSumUp != 0 ||

@@ -108,6 +108,7 @@ class Cohesion final : public CoupledForces {
     FaceTractions tractions{};
     Vec2 traction{};  // Pa, sum of the tractions on `here`
     Vec2 change{};    // Pa, in the last sweep
+    Vec2 opening{};   // m, at the last call of `opened`
     bool isEven;      // equal compliance in all directions
     std::uint32_t crack, end;
     std::uint32_t couple;  // that of its crack; one or two consecutive points have the same
@@ -121,6 +122,7 @@ class Cohesion final : public CoupledForces {
                const StepLength& step, double drag);
   void findGroups(std::size_t nodes);
   double solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group);
+  double opened(const std::vector<Vec2>& position, std::span<const std::uint32_t> group);
   void balance(std::vector<Vec2>& position);
   template <class Matters>
   double improve(std::vector<Vec2>& position, Matters matters);

@@ -100,9 +100,9 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   };
   expectNear(places.x, 3.6430002001557953);
   expectNear(places.y, 1.4470867826392377);
-  expectNear(speeds, 4588.9575169145764);
+  expectNear(speeds, 4588.9575169372056);
   expectNear(totalEnergy(world), 89.999577295195351);
-  expectNear(world.ledger.contact, 5.4998862108601845);
+  expectNear(world.ledger.contact, 5.4998862107108364);
 }
 
 }  // namespace

@@ -47,6 +47,9 @@ inline constexpr double kLeastSqueezed = .25;
 /// same to 10⁻⁵.
 inline constexpr double kCohesionChange = 1e-6;
 inline constexpr int kCohesionSweeps = 100;
+/// (of the opening by the strength) Sweeps also end where no opening changes by more: then no node
+/// moves, although tractions may still grow around a node that is split all round.
+inline constexpr double kSameOpening = 1e-9;
 
 /// (count; squared cosine; ratio) Acceleration of these sweeps. After each group of sweeps, except
 /// the last ones, changes with the same direction as the changes before are summed up as a
