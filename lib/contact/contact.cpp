@@ -116,7 +116,7 @@ void Contact::makeRows(const Model& model, const ContactSurfaces& surfaces,
     ContactRow row = rowOf(near, surfaces, model.nodes, step);
     const Touch* const former = touchOf({row.slave, row.master});
     const bool isHeld = isHeldByCohesion(row, step.coupled);
-    const bool isPair = near.isSecondOfNotch && hasFirst;
+    const bool isPair = near.isSecond && hasFirst;
     // Cohesion keeps corners of one split node together. Their rows would be as many as its
     // cracks, and coupled with all of them (Ring.OnTheMeshOfAPolygon).
     hasFirst = !isHeld || former != nullptr || near.gap < -tolerance::kHeldDepth * step.shortest;
@@ -186,7 +186,7 @@ void Contact::solve(Model& model, const ContactSurfaces& surfaces, const Contact
     measureGaps(model.nodes, surfaces);
     sweeps_.improve(tolerance::kLastSweeps);
   }
-  sweeps_.end(step.coupled, &model.nodes.position);
+  now_.largestCorrection = sweeps_.end(step.coupled, &model.nodes.position);
   now_.sweeps = sweeps_.sweeps();
 }
 
@@ -273,12 +273,13 @@ void Contact::move(Model& model, const ContactStep& step) {
     largest = std::max(largest, dot(u, u));
   }
   moveRigid(model, step, largest);
-  now_.largestCorrection = std::sqrt(largest);
-  if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
+  const double own = std::sqrt(largest);
+  now_.largestCorrection += own;
+  if (own <= 2 * tolerance::kFarthestMove * step.shortest) return;
   throw RunError(fmt::format(
       "contact moves a surface node by {:g} m, which is many times the shortest segment, "
       "{:g} m; take a shorter step, or slower bodies.",
-      now_.largestCorrection, step.shortest));
+      own, step.shortest));
 }
 
 /// Eq. 7: Fᵢ = Σ weight × force of the rows.

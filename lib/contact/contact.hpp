@@ -67,7 +67,7 @@ class Contact {
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, in the last step.
   [[nodiscard]] ContactForces forces() const { return ContactForces{forces_}; }
-  /// (m) Largest correction of a node in the last step.
+  /// (m) Bound of the correction of a node in the last step, with that of the coupled forces.
   [[nodiscard]] double largestCorrection() const { return now_.largestCorrection; }
   /// (m) The deepest penetration of a row that the last step has left.
   [[nodiscard]] double maxPenetration() const { return now_.maxPenetration; }

@@ -11,7 +11,7 @@
 
 namespace yadefrag {
 
-/// One active: a slave that penetrates a master, as a row of its group's system (paper fig. 2). The
+/// One active: a slave in front of a master, as a row of the step's system (paper fig. 2). The
 /// slave S is a sampling point: a node, or the middle between two. The foot M is the point of the
 /// master nearest to S, between the master's nodes. S and M move with the nodes beside them by the
 /// shape functions h; the displacement of S relative to M is the sum of weight × displacement over

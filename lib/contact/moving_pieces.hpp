@@ -44,7 +44,7 @@ class MovingPieces {
               std::span<const Vec2> now, int threads);
 
   /// (m) Largest displacement of a begin from the weighted mean of all: what moves together has no
-  /// part in it, and a wall at rest far away changes nothing.
+  /// part in it, and a part at rest does not change the mean.
   [[nodiscard]] double largestMove() const;
 
   [[nodiscard]] const MovingPiece& operator[](EntryId entry) const { return pieces_[entry.value]; }

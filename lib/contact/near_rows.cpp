@@ -11,7 +11,6 @@ ContactSizes::ContactSizes(double shortestSide, double move, const tolerance::Co
       zone(shortestSide * std::clamp(tolerance::kZoneMoves * move / shortestSide, tolerance::kZone,
                                      tolerance::kWidestZone)),
       wide(tolerance::kWide * zone),
-      depth(zone),
       slack(constants.slack * move + tolerance::kTouching * shortestSide),
       leaning(constants.leaning * shortestSide),
       faceAngle(constants.faceAngle),
@@ -75,8 +74,8 @@ double NearRows::cornerAndSide(EntryId slave, EntryId master, double along, doub
   const MovingPiece& piece = pieces_[master];
   const double toEnd = std::min(along, piece.length - along);
   const double open = std::max({0., gap, tolerance::kZone * sizes_.shortest - toEnd});
-  if (toEnd < sizes_.zone || gap < -sizes_.depth) return open;
-  // Deeper than it is from the end: it came in there.
+  if (toEnd < sizes_.zone || gap < -sizes_.zone) return open;
+  // Deep, compared with its distance from the end: it came in there.
   if (gap < -tolerance::kThrough * toEnd) return open;
   const Corner corner = cornerAt(slave);
   if (!corner.mayTouch || leaningOf(corner, piece.normal()) > sizes_.faceAngle) return open;
@@ -133,10 +132,10 @@ void NearRows::notch(const Corner& corner, const Corner& tip) {
     const Side& twin = sides[side.atEnd ? 0 : 1];
     if (isOne && (twin.gapAfter < side.gapAfter || (twin.gapAfter == side.gapAfter && side.atEnd)))
       continue;
-    if (side.gap < -sizes_.depth || side.inside >= sizes_.zone) continue;
+    if (side.gap < -sizes_.zone || side.inside >= sizes_.zone) continue;
     const double xi = std::clamp(side.xi, -tolerance::kFootBeyond, 1 + tolerance::kFootBeyond);
     if (!add(side.point, side.piece, side.gap, xi)) continue;
-    rows_.back().isSecondOfNotch = anyBefore;
+    rows_.back().isSecond = anyBefore;
     anyBefore = true;
   }
 }
@@ -178,12 +177,12 @@ void NearRows::separate(const Corner& a, const Corner& b) {
       addOf(side, tolerance::kPartner * sizes_.shortest);
   }
   // Both rows move nearly the same nodes: from row to row their forces would not converge.
-  if (first > former && rows_.size() > first) rows_[first].isSecondOfNotch = true;
+  if (first > former && rows_.size() > first) rows_[first].isSecond = true;
 }
 
 /// `least` (m): how far over the side the point must be.
 void NearRows::addOf(const Side& side, double least) {
-  if (side.gap < -sizes_.depth || side.inside < least) return;
+  if (side.gap < -sizes_.zone || side.inside < least) return;
   if (side.inside >= sizes_.zone) return;  // it is over the middle of this side
   double xi = side.xi;
   if (std::abs(xi) < tolerance::kFootAtNode) xi = 0;
@@ -212,7 +211,7 @@ void NearRows::cornerAndArc(EntryId slave, EntryId master, const PieceGeometry& 
   const MovingPiece& point = pieces_[slave];
   const Foot after = now.foot(master, point.begin + point.moved);
   const bool isOver = after.xi >= -tolerance::kFootRange && after.xi <= 1 + tolerance::kFootRange;
-  if (!isOver || !(after.gap < sizes_.slack) || after.gap < -sizes_.depth - sizes_.slack) return;
+  if (!isOver || !(after.gap < sizes_.slack) || after.gap < -sizes_.zone - sizes_.slack) return;
   const Foot foot = before.foot(master, point.begin);
   if (leaningOf(cornerAt(slave), foot.normal) > sizes_.faceAngle) return;
   // At the end itself the force would have a moment while the slave slides past it.

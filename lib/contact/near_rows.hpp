@@ -19,7 +19,8 @@
 // 4. A notch (a concave corner) holds a tip with both sides.
 // 5. Two sides that overlap antiparallel beyond their corners need a second row.
 //
-// Rows are speculative: a pair that is open has one, too, if it may close in this step. The gap is
+// (s: slave, v: a corner as master.) Where several sides separate alike, the first that is compared
+// holds. Rows are speculative: an open pair has one, too, if it may close in this step. The gap is
 // linear in the displacements from xⁿ, where normal and foot are.
 
 #include <span>
@@ -39,7 +40,9 @@ struct NearRow {
   double before;  ///< m, gap at xⁿ
   double gap;     ///< m, gap at x*, linear
   double slip;    ///< m, of the slave along the tangent in this step
-  bool isSecondOfNotch = false;  ///< the row before this one is that of the notch's other side
+  /// Solved together with the row before: that of the notch's other side, or of the antiparallel
+  /// side.
+  bool isSecond = false;
 };
 
 /// Lengths of detection in one step.
@@ -47,10 +50,10 @@ struct ContactSizes {
   ContactSizes(double shortest, double move, const tolerance::Contact& constants);
 
   double shortest;   ///< m, shortest segment
-  double zone;       ///< m, a corner nearer than this to the end of a side belongs to that corner
+  double zone;       ///< m, a corner nearer than this to the end of a side belongs to that corner;
+                     ///< no row holds a deeper one, which came another way
   double wide;       ///< m, pairs farther from each other than this are left out
-  double depth;      ///< m, no row holds a corner that is deeper than this: it came another way
-  double slack;      ///< m, rows that are open by more than this at x* are left out
+  double slack;      ///< m, rows with a larger gap at x*, beyond an overlap at xⁿ, are left out
   double leaning;    ///< m, per sine
   double faceAngle;  ///< sine
   double closing;    ///< m, nodes move by less towards a pair that stays open in this step

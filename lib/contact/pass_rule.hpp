@@ -59,7 +59,7 @@ class PassRule {
 
   int passes_ = 1;
   bool anyRigid_ = false;
-  std::vector<double> fineness_;     ///< m, mean length of a loop's pieces
+  std::vector<double> fineness_;     ///< of a loop, by its mean piece length; in parts of an octave
   std::vector<std::uint8_t> sharp_;  ///< by entry: true if its sampling point is such a corner
 };
 

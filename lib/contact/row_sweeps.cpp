@@ -41,8 +41,8 @@ void RowSweeps::improve(int most) {
     if (!(sweep(count_) > change_)) break;
 }
 
-void RowSweeps::end(CoupledForces* coupled, std::vector<Vec2>* position) {
-  if (!shared_.empty()) (void)sweepCoupled(*coupled, *position, count_, true);
+double RowSweeps::end(CoupledForces* coupled, std::vector<Vec2>* position) {
+  return shared_.empty() ? 0 : sweepCoupled(*coupled, *position, count_, true);
 }
 
 /// Alternating directions: forces are transmitted along chains of rows.

@@ -7,7 +7,7 @@
 // Sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's contact dynamics),
 // without a matrix: each row uses the displacements of its nodes by the other rows so far. They
 // start from the forces of the last step and stay near them. Ten to twenty short sweeps are enough,
-// since no two rows of a step contradict each other. A remaining gap is corrected in the next step.
+// unless rows contradict each other. What remains of an overlap is reduced in later steps.
 
 #include <cstdint>
 #include <vector>
@@ -42,11 +42,11 @@ class RowSweeps {
   /// Improves the forces of all rows, and those that are coupled to them (`position`: m, by node,
   /// without contact; null without coupled forces); returns the largest change in the last sweep
   /// (m). Then gaps may be set anew: `improve` follows with at most `most` sweeps. `end` is the
-  /// last call of a step.
+  /// last call of a step; it returns the largest displacement of nodes with coupled forces (m).
   double begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position);
   void setGap(std::size_t number, double gap);
   void improve(int most);
-  void end(CoupledForces* coupled, std::vector<Vec2>* position);
+  double end(CoupledForces* coupled, std::vector<Vec2>* position);
 
   [[nodiscard]] std::size_t size() const { return system_.rows.size(); }
   /// Number of sweeps of the last solution.
