@@ -4,9 +4,8 @@
 
 namespace yadefrag::tolerance {
 
-/// The constants on which the outcome of contact depends besides rounding. Overlaps in the
-/// following are the largest ones of any two triangles in impacts, in parts of the shortest
-/// segment.
+/// The constants of contact that a scene can have of its own. Overlaps in the following are the
+/// largest ones of any two triangles in impacts, in parts of the shortest segment.
 struct Contact {
   /// (sine) Up to this angle, 20°, a corner's sides may lean into a side that holds it, and a
   /// corner that turns inwards by less can touch a side. A convex corner with a larger angle is a
@@ -18,9 +17,9 @@ struct Contact {
   /// coincide, as at a crack. With faceAngle alone overlaps are 1e-2.
   double leaning = .1;
 
-  /// (of the largest displacement in the step) A pair has a row if its gap is at most this at the
-  /// end of the step without contact: forces of other rows may still close it. With 0 overlaps are
-  /// 2e-2, with .2 up to .014 at 200 m/s.
+  /// (of the largest displacement in the step) A pair has a row if its gap, beyond an overlap at
+  /// xⁿ, is at most this at the end of the step without contact: forces of other rows may still
+  /// close it. With 0 overlaps are 2e-2, with .2 up to .014 at 200 m/s.
   double slack = .5;
 
   /// (ratio) An overlap is reduced in every step by this part of itself, and by no more than this
