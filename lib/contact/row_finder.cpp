@@ -39,10 +39,7 @@ std::vector<NearRow>& RowFinder::find(Candidates& candidates, const ContactSurfa
                                       double travelled, int threads) {
   const std::size_t count = candidates.rows().size();
   candidates.distances.resize(candidates.slaves.size());
-  parts_.resize(static_cast<std::size_t>(threadsFor(count, threads)));
-  forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int part) {
-    PartList<NearRow>& found = parts_[static_cast<std::size_t>(part)];
-    found.clear();
+  listInParts(count, threads, parts_, rows_, [&](std::size_t begin, std::size_t end, auto& found) {
     Visit with{candidates,
                surfaces,
                {surfaces, positions.before},
@@ -64,12 +61,6 @@ std::vector<NearRow>& RowFinder::find(Candidates& candidates, const ContactSurfa
       distance = {with.far, found.size() > former ? 0 : with.open, travelled};
     }
   });
-  rows_.clear();
-  if (parts_.size() == 1) {
-    rows_.swap(parts_.front());
-  } else {
-    for (const auto& part : parts_) rows_.insert(rows_.end(), part.begin(), part.end());
-  }
   candidates.nearest =
       rows_.empty() ? leastOf(candidates, travelled) : Candidates::Distance{0, 0, travelled};
   return rows_;

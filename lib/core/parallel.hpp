@@ -78,6 +78,23 @@ int forEachPart(std::size_t count, int threads, Work work) {
   return parts;
 }
 
+/// Fills `list` by `work(begin, end, list)` for contiguous parts of [0, count), in their order.
+/// `parts`: memory from call to call.
+template <class T, class Work>
+void listInParts(std::size_t count, int threads, std::vector<PartList<T>>& parts,
+                 std::vector<T>& list, Work work) {
+  list.clear();
+  const int most = threadsFor(count, threads);
+  if (most == 1) return work(std::size_t{0}, count, list);
+  parts.resize(static_cast<std::size_t>(most));
+  forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int part) {
+    PartList<T>& found = parts[static_cast<std::size_t>(part)];
+    found.clear();
+    work(begin, end, found);
+  });
+  for (const auto& part : parts) list.insert(list.end(), part.begin(), part.end());
+}
+
 /// Calls `work(item)` for each of `count` items that do not depend on each other and are of
 /// different size, with `pieces` pieces of work in all; a thread takes `atOnce` items. An exception
 /// as above.

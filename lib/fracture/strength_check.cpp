@@ -5,11 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/arrays.hpp"
 #include "core/tolerances/fracture.hpp"
-#include "core/tolerances/plasticity.hpp"
 #include "dynamics/element_state.hpp"
-#include "dynamics/yielding_state.hpp"
 #include "fracture/edge_material.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/tip_pull.hpp"
@@ -64,28 +61,15 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   return pickApart(model, edges);
 }
 
-/// Calls `work(begin, end, list)` for parts of [0, count), and joins the nodes of the lists.
-template <class Work>
-void StrengthCheck::listInParts(std::size_t count, int threads, std::vector<NodeId>& nodes,
-                                Work work) {
-  parts_.resize(static_cast<std::size_t>(threadsFor(count, threads)));
-  forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int part) {
-    PartList<NodeId>& list = parts_[static_cast<std::size_t>(part)];
-    list.clear();
-    work(begin, end, list);
-  });
-  nodes.clear();
-  for (const auto& part : parts_) nodes.insert(nodes.end(), part.begin(), part.end());
-}
-
 /// The nodes of these triangles at which an edge may have reached its strength.
 void StrengthCheck::listNodes(const Model& model, std::span<const ElementRange> where,
                               int threads) {
-  listInParts(where.size(), threads, nodes_, [&](std::size_t begin, std::size_t end, auto& list) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::uint32_t e = where[i].firstElement; e < where[i].lastElement; ++e)
-        if (!model.triangles.isDropped(e)) listCorners(model, ElementId(e), list);
-  });
+  listInParts(where.size(), threads, parts_, nodes_,
+              [&](std::size_t begin, std::size_t end, auto& list) {
+                for (std::size_t i = begin; i < end; ++i)
+                  for (std::uint32_t e = where[i].firstElement; e < where[i].lastElement; ++e)
+                    if (!model.triangles.isDropped(e)) listCorners(model, ElementId(e), list);
+              });
   std::erase_if(
       nodes_, [&](NodeId node) { return std::exchange(nodeTested_[node.value], call_) == call_; });
 }
@@ -120,10 +104,11 @@ void StrengthCheck::computeStresses(const Model& model, const CrackEdges& edges,
 }
 
 void StrengthCheck::listWeak(const Model& model, const CrackEdges& edges, int threads) {
-  listInParts(nodes_.size(), threads, weak_, [&](std::size_t begin, std::size_t end, auto& list) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (mayCrackAt(model, edges, nodes_[i])) list.push_back(nodes_[i]);
-  });
+  listInParts(nodes_.size(), threads, parts_, weak_,
+              [&](std::size_t begin, std::size_t end, auto& list) {
+                for (std::size_t i = begin; i < end; ++i)
+                  if (mayCrackAt(model, edges, nodes_[i])) list.push_back(nodes_[i]);
+              });
 }
 
 /// At one end of an edge, at least, the traction is not less than their mean: the ends are tested
@@ -404,60 +389,6 @@ std::vector<EdgeId> StrengthCheck::pickApart(const Model& model, const CrackEdge
   std::sort(picked.begin(), picked.end());
   assert(std::ranges::adjacent_find(picked) == picked.end());
   return picked;
-}
-
-// --- Strength of the edges of triangles whose material has failed.
-
-void StrengthCheck::weakenAround(const Model& model, const CrackEdges& edges, ElementId element) {
-  std::array<EdgeId, 3> own;
-  std::size_t count = 0;
-  double most = 0;
-  bool isNew = false;
-  for (const EdgeId edge : edges.ofElement[element.value]) {
-    if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
-    own[count++] = edge;
-    isNew = isNew || edges.strength[edge.value] == kUnbreakable;
-  }
-  if (!isNew) return;
-  const Component& body = model.bodyOf(element);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Traction t =
-        tractionOn(stressAcross(model, edges, own[i]), normalOf(model, edges, own[i]));
-    most = std::max(most, effectiveTraction(t.normal, t.shear, body.brittle, body.friction));
-  }
-  const Returned now = presentState(model, element, step_.length);
-  const double mises =
-      SolidModuli(body.material).shear * now.kept * std::sqrt(now.trial.squaredMises());
-  if (!(most > tolerance::kLeastOpening * mises)) return;
-  for (std::size_t i = 0; i < count; ++i) weakened_.push_back({own[i], most});
-}
-
-std::vector<EdgeId> StrengthCheck::weaken(const Model& model, CrackEdges& edges,
-                                          std::span<const ElementRange> where, const StepTime& step,
-                                          std::vector<double>& leastStrength) {
-  if (model.triangles.plastic.damage.empty()) return {};
-  resize(model, edges);
-  ++call_;
-  step_ = step;
-  weakened_.clear();
-  for (const ElementRange& range : where)
-    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      if (!model.triangles.isDropped(e) && model.triangles.plastic.hasFailed(e))
-        weakenAround(model, edges, ElementId(e));
-  std::vector<EdgeId> changed;
-  for (const Weakened& one : weakened_) {
-    double& strength = edges.strength[one.edge.value];
-    strength = std::min(strength, one.strength);
-    double& least =
-        leastStrength[model.triangles.component[edges.element[one.edge.value][0].value].value];
-    least = std::min(least, strength);
-    const Side side = edges.side(one.edge, 0);
-    for (const NodeId node : {firstNode(model, side), lastNode(model, side)})
-      weakest_[node.value] = std::min(weakest_[node.value], strength);
-    changed.push_back(one.edge);
-  }
-  sortUnique(changed);
-  return changed;
 }
 
 }  // namespace yadefrag

@@ -96,8 +96,6 @@ class StrengthCheck {
   [[nodiscard]] std::span<const ElementId> elementsOf(const Fan& fan) const {
     return std::span(fans_).subspan(fan.begin, fan.count);
   }
-  template <class Work>
-  void listInParts(std::size_t count, int threads, std::vector<NodeId>& nodes, Work work);
   void listNodes(const Model& model, std::span<const ElementRange> where, int threads);
   void listCorners(const Model& model, ElementId element, std::vector<NodeId>& list);
   void computeStresses(const Model& model, const CrackEdges& edges, int threads);
@@ -133,8 +131,8 @@ class StrengthCheck {
   std::vector<Fan> fanOf_;  // by node, as soon as it has been checked
   std::vector<ElementId> fans_;
   std::vector<ElementId> fan_, around_;
-  std::vector<NodeId> nodes_,
-      weak_;  // that are checked in this call; of them where edges may crack
+  std::vector<NodeId> nodes_;  // that are checked in this call
+  std::vector<NodeId> weak_;   // of these: where edges may crack
   std::vector<PartList<NodeId>> parts_;
   std::vector<Overstressed> found_;
   std::vector<Weakened> weakened_;

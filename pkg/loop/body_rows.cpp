@@ -126,18 +126,14 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
 }
 
 void BodyRows::findPairs(yade::Scene& scene, int threads) {
-  changedByPart_.resize(static_cast<std::size_t>(threads));
-  for (auto& changed : changedByPart_) changed.clear();
-  forEachPart(pairs_.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
-    auto& changed = changedByPart_[static_cast<std::size_t>(part)];
+  const auto list = [&](std::size_t begin, std::size_t end, auto& changed) {
     for (std::size_t place = begin; place < end; ++place) {
       if (contacts_[place] != (*scene.interactions)[place]) changed.push_back(place);
     }
-  });
-  for (const auto& changed : changedByPart_) {
-    for (const std::size_t place : changed) makePair(scene, place);
-    numNew_ += changed.size();
-  }
+  };
+  listInParts(pairs_.size(), threads, changedByPart_, changed_, list);
+  for (const std::size_t place : changed_) makePair(scene, place);
+  numNew_ += changed_.size();
   if (!areValid_) areValid_ = true, numNew_ = 0;
 }
 

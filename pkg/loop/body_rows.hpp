@@ -163,7 +163,8 @@ class BodyRows {
   std::vector<PairRows> pairs_;             // by place of the contact
   // By place of the contact, shared: the address of a contact that has ended is not used again.
   std::vector<yade::shared_ptr<yade::Interaction>> contacts_;
-  std::vector<PartList<std::size_t>> changedByPart_;  // places
+  std::vector<PartList<std::size_t>> changedByPart_;
+  std::vector<std::size_t> changed_;  // places
   // YADE's sums, by id, where these are used in place.
   yade::Vector3r* forces_ = nullptr;
   yade::Vector3r* torques_ = nullptr;
