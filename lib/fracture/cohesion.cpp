@@ -191,14 +191,11 @@ double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_
     worst = std::sqrt(worst);
     if (group.size() == 1 && points_[group[0]].isEven) return 0;  // exact after one solution
     if (worst <= tolerance::kCohesionChange) break;
-    if (sweep % tolerance::kSweepsToSumUp == 0 &&
-        opened(position, group) <= tolerance::kSameOpening)
-      return 0;
+    if (sweep % tolerance::kSweepsToSumUp != 0) continue;
+    if (opened(position, group) <= tolerance::kSameOpening) break;
     const bool isSeries =
         common > 0 && common < before && common * common >= tolerance::kSameChange * now * before;
-    if (!isSeries || sweep % tolerance::kSweepsToSumUp != 0 ||
-        sweep > tolerance::kCohesionSweeps - tolerance::kSweepsToSettle)
-      continue;
+    if (!isSeries || sweep > tolerance::kCohesionSweeps - tolerance::kSweepsToSettle) continue;
     const double ratio = std::min(common / before, tolerance::kMostRatio);
     for (const std::uint32_t i : group) {
       const Vec2 rest = ratio / (1 - ratio) * points_[i].change;
