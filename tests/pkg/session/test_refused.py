@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, heard, impact, O, reloaded, run, steps
+from fe_scene import fe, impact, O, reloaded, run, steps
 from yade import wrapper as w
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -354,54 +354,3 @@ def test_steps(name):
             yadefrag.runSteps(3)
         O.dt = good
         assert yadefrag.runSteps(3) == 3
-
-
-# --- what selects nothing
-
-@pytest.mark.parametrize('call', [
-    lambda solver, nodes: solver.prescribe(nodes, vx=0), lambda solver, nodes: solver.rotate(nodes, 1, (0, 0)),
-    lambda solver, nodes: solver.reaction(nodes)])
-@pytest.mark.parametrize('kind', ['function', 'flags', 'numbers'])
-def test_placesWithoutNodesAreReported(call, kind):
-    """After a motion: a function gets the present positions."""
-    made = fe()
-    added(made, velocity=(1, 0))
-    run(made, finder('LebesgueCollider'))
-    left = lambda x, y: x < 1e-9
-    numbers = np.flatnonzero([left(x, y) for x, y in made.nodes])
-    with warnings.catch_warnings(action='error'):
-        call(made, left)
-    made.prescribe(numbers)
-    steps(3)
-    nodes = dict(function=left, flags=np.array([left(x, y) for x, y in made.nodes]), numbers=[])[kind]
-    with pytest.warns(UserWarning, match='^nodes selects none of the %d nodes' % len(made.nodes)) as caught:
-        call(made, nodes)
-    assert ('present positions' in str(caught[0].message)) == (kind == 'function')
-
-
-def told(call):
-    with heard() as texts:
-        call()
-    return texts
-
-
-@pytest.mark.parametrize('low', [-1, 2])
-def test_fixedThatSelectsNothingIsReportedBeforeTheRun(low):
-    """Of several bodies it may select nothing of some, whichever of them it holds."""
-    made = fe()
-    for k in range(3):
-        added(made, (2 * k, 0), fixed=lambda x, y: 2 * low < x < 2 * low + .5)
-    run(made)
-    assert told(O.step) == ([] if low == 2 else ['fixed selects none of the nodes of the bodies 0 to 2.'])
-    assert not told(O.step)
-
-
-@pytest.mark.parametrize('corners', [(.1, .05), (.4, .006)])
-def test_sizeAboveTheBody(corners):
-    shape = yadefrag.rectangle((0, 0), corners)
-    [sentence] = told(lambda: fe().addPolygon(shape, size=10, material='m'))
-    assert sentence == (
-        'addPolygon: size is 10 m, but the body has only %g m by %g m: its outline requires smaller triangles, which '
-        'determine the critical time step; take a size of at most %g m.' % (*corners, corners[1]))
-    O.reset()
-    assert not told(lambda: fe().addPolygon(shape, size=corners[1], material='m'))
