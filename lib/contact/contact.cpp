@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/parallel.hpp"
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/solver.hpp"
 #include "core/tolerances/step.hpp"
@@ -22,7 +23,6 @@ void Contact::reset() {
   now_ = {};
   touched_.clear();
   forces_.clear();
-  displacement_.clear();
   isTouched_.clear();
 }
 
@@ -33,13 +33,11 @@ void Contact::resize(std::size_t nodes) {
 /// Allocates memory on the first contact: bodies that never touch need none.
 void Contact::makeRoom(std::size_t nodes) {
   forces_.resize(nodes);
-  displacement_.resize(nodes);
   isTouched_.resize(nodes);
 }
 
 void Contact::reserve(std::size_t nodes) {
   forces_.reserve(nodes);
-  displacement_.reserve(nodes);
   isTouched_.reserve(nodes);
   sweeps_.reserve(nodes);
 }
@@ -58,7 +56,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
       move(model, step);
     }
   }
-  finish(model, step);
+  finish(step);
 }
 
 void Contact::begin(const ContactStep& step) {
@@ -75,7 +73,7 @@ void Contact::begin(const ContactStep& step) {
 
 void Contact::clearForces() {
   for (const NodeId node : touched_) {
-    forces_[node.value] = displacement_[node.value] = {};
+    forces_[node.value] = {};
     isTouched_[node.value] = 0;
   }
   touched_.clear();
@@ -86,8 +84,6 @@ void Contact::takeBack() {
   rows_.swap(formerRows_);
   now_ = former_;
   clearForces();
-  for (const ContactRow& row : rows_)
-    for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
   sumForces();
 }
 
@@ -158,7 +154,7 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
     const auto add = [&](EntryId entry, double weight) {
       if (weight == 0) return;
       const auto at = static_cast<std::size_t>(row.count++);
-      row.node[at] = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+      row.node[at] = surfaces.nodeOf(entry);
       row.weight[at] = weight;
     };
     add(near.slave, 1);
@@ -183,37 +179,49 @@ void Contact::solve(Model& model, const ContactSurfaces& surfaces, const Contact
   (void)sweeps_.begin(stop, step.coupled, &model.nodes.position);
   // Not with cohesion, which holds pieces at their gaps: overlaps of 2e-3 of a segment otherwise.
   if (step.coupled == nullptr) {
-    measureGaps(model.nodes, surfaces);
+    measureGaps(model.nodes, surfaces, step.threads);
     sweeps_.improve(tolerance::kLastSweeps);
   }
   now_.largestCorrection = sweeps_.end(step.coupled, &model.nodes.position);
   now_.sweeps = sweeps_.sweeps();
 }
 
-/// At the positions that the forces lead to, gaps differ from the linear ones by the second order
-/// of the rotation. Only of rows with a force, without rigid bodies.
-void Contact::measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces) {
+/// (m) At the positions that the forces lead to.
+double Contact::gapReached(const NearRow& near, const Nodes& nodes,
+                           const ContactSurfaces& surfaces) const {
   const auto placeOf = [&](NodeId node) {
     return nodes.position[node.value] + sweeps_.shiftOf(node);
   };
-  const auto slaveOf = [&](EntryId entry) {
-    const Stencil at = surfaces.slave(entry);
-    Vec2 place;
-    for (int k = 0; k < at.count; ++k) place += at.weight[k] * placeOf(at.node[k]);
-    return place;
+  const auto lineGap = [](Vec2 slave, Vec2 first, Vec2 second) {
+    return cross(slave - first, second - first) / norm(second - first);
   };
+  if (!surfaces.anySmooth())  // most are
+    return lineGap(placeOf(surfaces.nodeOf(near.slave)), placeOf(surfaces.nodeOf(near.master)),
+                   placeOf(surfaces.nodeOf(surfaces.next[near.master.value])));
+  const Stencil at = surfaces.slave(near.slave), on = surfaces.master(near.master, .5);
+  Vec2 slave;
+  for (int k = 0; k < at.count; ++k) slave += at.weight[k] * placeOf(at.node[k]);
+  const Vec2 first = placeOf(on.node[0]), second = placeOf(on.node[1]);
+  return on.count == 3 ? nearestOnArc(first, second, placeOf(on.node[2]), slave).gap
+                       : lineGap(slave, first, second);
+}
+
+/// The gaps reached differ from the linear ones by the second order of the rotation. Only of rows
+/// with a force, without rigid bodies.
+void Contact::measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces, int threads) {
+  perRow_.resize(near_.size());
+  forEachPart(near_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t r = begin; r < end; ++r) {
+      const RowSystem::Row& row = sweeps_.row(r);
+      const bool isMeasured = row.normalForce > 0 && row.turn == RowSystem::kNone;
+      const double linear = sweeps_.gapAfter(row) + near_[r].gap - row.gap;
+      perRow_[r] = isMeasured ? gapReached(near_[r], nodes, surfaces) - linear : 0;
+    }
+  });
   for (std::size_t r = 0; r < near_.size(); ++r) {
-    const RowSystem::Row& row = sweeps_.row(r);
-    if (!(row.normalForce > 0) || row.turn != RowSystem::kNone) continue;
-    const Stencil on = surfaces.master(near_[r].master, .5);
-    const Vec2 slave = slaveOf(near_[r].slave);
-    const Vec2 first = placeOf(on.node[0]), second = placeOf(on.node[1]);
-    const double exact = on.count == 3
-                             ? nearestOnArc(first, second, placeOf(on.node[2]), slave).gap
-                             : cross(slave - first, second - first) / norm(second - first);
-    const double by = exact - (sweeps_.gapAfter(row) + near_[r].gap - row.gap);
-    near_[r].gap += by;
-    sweeps_.setGap(r, row.gap + by);
+    if (perRow_[r] == 0) continue;
+    near_[r].gap += perRow_[r];
+    sweeps_.setGap(r, sweeps_.row(r).gap + perRow_[r]);
   }
 }
 
@@ -222,42 +230,40 @@ void Contact::keepRows(const Model& model, const ContactSurfaces& surfaces,
                        const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const PieceGeometry before(surfaces, step.before);
-  for (std::size_t r = 0; r < near_.size(); ++r) {
-    const RowSystem::Row& solved = sweeps_.row(r);
-    const bool hasForce = solved.normalForce != 0 || solved.tangentForce != 0;
-    // Without a force a row is open, unless no node of it can move.
-    if (!hasForce && solved.normalResponse > 0) continue;
-    const double tolerated = near_[r].gap - solved.gap;
-    now_.maxPenetration = std::max(now_.maxPenetration, -(sweeps_.gapAfter(solved) + tolerated));
-    if (!hasForce) continue;
-    balanceFriction(near_[r], solved, before);
-    ContactRow row = rowOf(near_[r], surfaces, model.nodes, step);
-    row.toleratedGap = tolerated;
-    row.normalForce = solved.normalForce, row.tangentForce = solved.tangentForce;
-    for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
-    if (row.rigid.mass != ContactRow::kNone) joinRigid(row.rigid.mass, step);
-    rows_.push_back(row);
-  }
+  perRow_.resize(near_.size());
+  const auto list = [&](std::size_t begin, std::size_t end, auto& kept) {
+    for (std::size_t r = begin; r < end; ++r) {
+      const RowSystem::Row& solved = sweeps_.row(r);
+      const bool hasForce = solved.normalForce != 0 || solved.tangentForce != 0;
+      perRow_[r] = 0;
+      // Without a force a row is open, unless no node of it can move.
+      if (!hasForce && solved.normalResponse > 0) continue;
+      const double tolerated = near_[r].gap - solved.gap;
+      perRow_[r] = -(sweeps_.gapAfter(solved) + tolerated);
+      if (!hasForce) continue;
+      balanceFriction(near_[r], solved, before);
+      ContactRow& row = kept.emplace_back(rowOf(near_[r], surfaces, model.nodes, step));
+      row.toleratedGap = tolerated;
+      row.normalForce = solved.normalForce, row.tangentForce = solved.tangentForce;
+    }
+  };
+  listInParts(near_.size(), step.threads, rowParts_, rows_, list);
+  for (const double depth : perRow_) now_.maxPenetration = std::max(now_.maxPenetration, depth);
 }
 
 /// Friction acts at the slave, and against it at the foot: with a gap between them at xⁿ it has a
 /// moment. The normal forces have the opposite one if the foot is moved along the side. The gap
 /// changes by the second order only.
 void Contact::balanceFriction(NearRow& near, const RowSystem::Row& solved,
-                              const PieceGeometry& before) {
+                              const PieceGeometry& before) const {
   if (solved.tangentForce == 0 || !(solved.normalForce > 0)) return;
-  const PieceRange range = before.range(near.master);
-  const double size = range.end - range.begin;
-  const Vec2 tangent = size * before.tangent(near.master, range.begin + size * near.xi);
-  near.xi -= near.before * solved.tangentForce / solved.normalForce / norm(tangent);
+  const MovingPiece& piece = finder_.piece(near.master);
+  const double length =
+      piece.isArc != 0 ? norm(before.tangent(near.master, near.xi)) : piece.length;
+  near.xi -= near.before * solved.tangentForce / solved.normalForce / length;
 }
 
-void Contact::touch(NodeId node) {
-  if (isTouched_[node.value] == 0) touched_.push_back(node);
-  isTouched_[node.value] = 1;
-}
-
-/// Moves the nodes from x* to x* + u.
+/// Moves the nodes from x* to x* + u, with the velocities of that.
 void Contact::move(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   sumForces();
@@ -269,7 +275,7 @@ void Contact::move(Model& model, const ContactStep& step) {
     const Vec2 force = forces_[node.value];
     const Vec2 u{squared * mobile.x * force.x, squared * mobile.y * force.y};
     model.nodes.position[node.value] += u;
-    displacement_[node.value] = u;
+    model.nodes.velocity[node.value] += (1 / step.length.position) * u;
     largest = std::max(largest, dot(u, u));
   }
   moveRigid(model, step, largest);
@@ -288,21 +294,16 @@ void Contact::sumForces() {
     const Vec2 force = row.force();
     for (int k = 0; k < row.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      forces_[row.node[at].value] += row.weight[at] * force;
+      const NodeId node = row.node[at];
+      if (isTouched_[node.value] == 0) touched_.push_back(node);
+      isTouched_[node.value] = 1;
+      forces_[node.value] += row.weight[at] * force;
     }
   }
 }
 
-/// Sets velocities, and the data for the next step.
-void Contact::finish(Model& model, const ContactStep& step) {
-  for (const NodeId node : touched_) {
-    const std::uint32_t n = node.value;
-    if (isOfRigid(node, step))
-      model.nodes.velocity[n] =
-          1 / step.length.position * (model.nodes.position[n] - step.before[n]);
-    else
-      model.nodes.velocity[n] += (1 / step.length.position) * displacement_[n];
-  }
+/// Sets the data for the next step.
+void Contact::finish(const ContactStep& step) {
   formerTouches_.clear();
   for (const ContactRow& row : rows_)
     formerTouches_.push_back(

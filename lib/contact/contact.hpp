@@ -92,16 +92,17 @@ class Contact {
   void detect(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void makeRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void solve(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
-  void measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces);
+  [[nodiscard]] double gapReached(const NearRow& near, const Nodes& nodes,
+                                  const ContactSurfaces& surfaces) const;
+  void measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces, int threads);
   void keepRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   [[nodiscard]] ContactRow rowOf(const NearRow& near, const ContactSurfaces& surfaces,
                                  const Nodes& nodes, const ContactStep& step) const;
-  static void balanceFriction(NearRow& near, const RowSystem::Row& solved,
-                              const PieceGeometry& before);
+  void balanceFriction(NearRow& near, const RowSystem::Row& solved,
+                       const PieceGeometry& before) const;
   [[nodiscard]] double toleratedGap(const RowSystem::Row& row, double before,
                                     const ContactStep& step) const;
   void findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) const;
-  void joinRigid(std::uint32_t mass, const ContactStep& step);
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
   void measureFriction(const Model& model);
   [[nodiscard]] double frictionOf(SlaveMaster pair, const ContactSurfaces& surfaces) const;
@@ -110,22 +111,22 @@ class Contact {
   [[nodiscard]] const Touch* touchOf(SlaveMaster pair) const;
   void move(Model& model, const ContactStep& step);
   void moveRigid(Model& model, const ContactStep& step, double& largest);
-  void touch(NodeId node);
   void sumForces();
-  void finish(Model& model, const ContactStep& step);
+  void finish(const ContactStep& step);
 
   // m, bound of what each surface node has moved so far, undone steps included.
   double travelled_ = 0;
   double move_ = 0;  // m, largest displacement of a surface in this step, relative to the mean
   RowFinder finder_;
   RowSweeps sweeps_;
-  std::vector<NearRow> near_;     // those of `sweeps_`
+  std::vector<NearRow> near_;   // those of `sweeps_`
+  std::vector<double> perRow_;  // m, scratch, of these
+  std::vector<PartList<ContactRow>> rowParts_;
   PairsOfSlaves pairs_;           // of `touches`, at the begin of the step
   std::vector<double> friction_;  // by component
   std::vector<ContactRow> rows_;
   Figures now_;
   std::vector<Vec2> forces_;             // N, by node
-  std::vector<Vec2> displacement_;       // m, by node: the correction u
   std::vector<NodeId> touched_;          // nodes with a row
   std::vector<std::uint8_t> isTouched_;  // by node
   struct RigidLoad {

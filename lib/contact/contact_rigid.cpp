@@ -23,13 +23,6 @@ void Contact::findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& 
   }
 }
 
-/// All nodes of a body with a row move with the correction.
-void Contact::joinRigid(std::uint32_t mass, const ContactStep& step) {
-  if (rigidLoads_[mass].hasRow) return;
-  rigidLoads_[mass].hasRow = true;
-  for (const NodeId node : step.rigid.nodesOf.row(mass)) touch(node);
-}
-
 bool Contact::isOfRigid(NodeId node, const ContactStep& step) const {
   return !rigidLoads_.empty() && step.rigid.of(node) != ContactRow::kNone;
 }
@@ -42,6 +35,7 @@ void Contact::moveRigid(Model& model, const ContactStep& step, double& largest) 
   for (const ContactRow& row : rows_) {
     if (row.rigid.mass == ContactRow::kNone) continue;
     RigidLoad& load = rigidLoads_[row.rigid.mass];
+    load.hasRow = true;
     load.force += row.rigid.weight * row.force();
     load.moment += cross(row.rigid.lever, row.force());
   }
@@ -58,12 +52,12 @@ void Contact::moveRigid(Model& model, const ContactStep& step, double& largest) 
       const std::uint32_t n = node.value;
       const Vec2 before = step.before[n];
       const Vec2 free = before + step.length.position * model.nodes.velocity[n];
-      const Vec2 arm = free - body.moved, atStart = before - body.centre;
+      const Vec2 arm = free - body.moved;
       const Vec2 place =
           body.moved + shift + Vec2{cosine * arm.x - sine * arm.y, sine * arm.x + cosine * arm.y};
       const Vec2 by = place - free;
       model.nodes.position[n] = place;
-      displacement_[n] = shift + angle * Vec2{-atStart.y, atStart.x};
+      model.nodes.velocity[n] = 1 / step.length.position * (place - before);
       largest = std::max(largest, dot(by, by));
     }
   }

@@ -14,9 +14,6 @@ void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2>
   pieces_.resize(count), moved_.resize(count);
   const bool anySmooth = surfaces.anySmooth();
   const PieceGeometry start(surfaces, before), end(surfaces, now);
-  const auto nodeOf = [&](EntryId entry) {
-    return surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
-  };
   forEachPart(count, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t e = first; e < last; ++e) {
       const EntryId entry(e);
@@ -29,9 +26,9 @@ void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2>
         piece.begin = start.slave(entry), piece.moved = end.slave(entry) - piece.begin;
         next = start.slave(piece.next);
       } else {
-        const NodeId node = nodeOf(entry);
+        const NodeId node = surfaces.nodeOf(entry);
         piece.begin = before[node.value], piece.moved = now[node.value] - piece.begin;
-        next = before[nodeOf(piece.next).value];
+        next = before[surfaces.nodeOf(piece.next).value];
       }
       moved_[e] = piece.moved;
       // In the same pass, although both ends are then read twice: memory limits the speed.

@@ -34,6 +34,7 @@ class RowFinder {
   std::vector<NearRow>& find(Candidates& candidates, const ContactSurfaces& surfaces,
                              const Positions& positions, const ContactSizes& sizes,
                              double travelled, int threads);
+  [[nodiscard]] const MovingPiece& piece(EntryId entry) const { return pieces_[entry]; }
 
  private:
   /// What one thread needs.

@@ -114,6 +114,10 @@ class ContactSurfaces {
   [[nodiscard]] bool isGone(SegmentId segment) const { return isGone(segmentEntry[segment.value]); }
   [[nodiscard]] std::size_t entries() const { return entrySegment.size(); }
 
+  /// First node of the segment in which an entry begins.
+  [[nodiscard]] NodeId nodeOf(EntryId entry) const {
+    return segmentNode[entrySegment[entry.value].value];
+  }
   /// Up to three nodes a, b, c of a piece; returns their number.
   int pieceNodes(EntryId entry, NodeId (&nodes)[3]) const;
   /// The sampling point of an entry: a node or a halfpoint.

@@ -11,15 +11,21 @@ constexpr double kGaussPoint[5] = {.046910077030668, .230765344947158, .5, .7692
 constexpr double kGaussWeight[5] = {.118463442528095, .239314335249683, .284444444444444,
                                     .239314335249683, .118463442528095};
 
-}  // namespace
-
-template <bool kSmooth>
-Vec2 PieceGeometryOf<kSmooth>::point(EntryId entry, double xi) const {
-  return combine(surfaces_.master(entry, xi), positions_);
+Foot footOnSegment(Vec2 a, Vec2 b, Vec2 point, PieceRange within) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  const double length = norm(along);
+  Foot foot;
+  foot.xi = square > 0 ? dot(point - a, along) / square : within.begin;
+  foot.normal = length > 0 ? (1 / length) * rightOf(along) : Vec2{};
+  foot.gap = dot(point - a, foot.normal);
+  foot.inside = foot.xi >= within.begin && foot.xi <= within.end;
+  return foot;
 }
 
-template <bool kSmooth>
-Box PieceGeometryOf<kSmooth>::box(EntryId entry) const {
+}  // namespace
+
+Box PieceGeometry::box(EntryId entry) const {
   const PieceEnds e = ends(entry);
   Box box{{std::min(e.begin.x, e.end.x), std::min(e.begin.y, e.end.y), 0},
           {std::max(e.begin.x, e.end.x), std::max(e.begin.y, e.end.y), 0}};
@@ -32,8 +38,7 @@ Box PieceGeometryOf<kSmooth>::box(EntryId entry) const {
   return box;
 }
 
-template <bool kSmooth>
-double PieceGeometryOf<kSmooth>::length(EntryId entry) const {
+double PieceGeometry::length(EntryId entry) const {
   const Corners n = corners(entry);
   const PieceRange within = range(entry);
   if (!n.arc) return (within.end - within.begin) * norm(n.b - n.a);
@@ -43,25 +48,14 @@ double PieceGeometryOf<kSmooth>::length(EntryId entry) const {
   return sum;
 }
 
-template <bool kSmooth>
-Vec2 PieceGeometryOf<kSmooth>::tangentOfOther(EntryId entry, double xi) const {
+Vec2 PieceGeometry::tangent(EntryId entry, double xi) const {
   const Corners n = corners(entry);
   return n.arc ? combine(arcShapeDerivative(xi), n.a, n.b, n.c) : n.b - n.a;
 }
 
-template <bool kSmooth>
-Foot PieceGeometryOf<kSmooth>::footOnOther(EntryId entry, Vec2 point) const {
+Foot PieceGeometry::foot(EntryId entry, Vec2 point) const {
   const Corners n = corners(entry);
   return n.arc ? nearestOnArc(n.a, n.b, n.c, point) : footOnSegment(n.a, n.b, point, range(entry));
 }
-
-template <bool kSmooth>
-bool PieceGeometryOf<kSmooth>::mayPenetrateOther(EntryId entry, Vec2 point) const {
-  const Corners n = corners(entry);
-  return n.arc ? mayPenetrateArc(n.a, n.b, n.c, point) : isBehindLine(n.a, n.b, point);
-}
-
-template class PieceGeometryOf<true>;
-template class PieceGeometryOf<false>;
 
 }  // namespace yadefrag

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "core/box.hpp"
-#include "core/tolerances/surface.hpp"
 #include "surface/bezier_arc.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -31,24 +30,18 @@ struct PieceEnds {
   Vec2 begin, end;
 };
 
-/// `kSmooth` false: for surfaces without any smooth part, whose pieces are all whole segments; the
-/// arrays for arcs are then not accessed.
-template <bool kSmooth>
-class PieceGeometryOf {
+/// Stores references only: both arguments must outlive it.
+class PieceGeometry {
  public:
-  /// This object stores references only: all arguments must outlive it. `points`: m, by entry, the
-  /// results of `slave` at these positions, if they are known already; this saves two indirections
-  /// each.
-  PieceGeometryOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                  std::span<const Vec2> points = {})
-      : surfaces_(surfaces), positions_(positions), points_(points) {}
+  PieceGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
+      : surfaces_(surfaces), positions_(positions) {}
 
   [[nodiscard]] std::span<const Vec2> positions() const { return positions_; }
   [[nodiscard]] bool isArc(EntryId entry) const {
-    return kSmooth && surfaces_.piece[entry.value] == Piece::kArc;
+    return surfaces_.piece[entry.value] == Piece::kArc;
   }
   [[nodiscard]] PieceRange range(EntryId entry) const {
-    return kSmooth ? pieceRange(surfaces_.piece[entry.value]) : PieceRange{};
+    return pieceRange(surfaces_.piece[entry.value]);
   }
 
   [[nodiscard]] PieceEnds ends(EntryId entry) const {
@@ -63,24 +56,16 @@ class PieceGeometryOf {
   /// m, length of the piece; that of an arc by quadrature, with an error of a thousandth even at a
   /// sharp node.
   [[nodiscard]] double length(EntryId entry) const;
-  [[nodiscard]] Vec2 point(EntryId entry, double xi) const;
+  [[nodiscard]] Vec2 point(EntryId entry, double xi) const {
+    return combine(surfaces_.master(entry, xi), positions_);
+  }
   /// dx/dξ (m); for a straight piece that of the whole segment.
-  [[nodiscard]] Vec2 tangent(EntryId entry, double xi) const {
-    if (!isWhole(entry)) return tangentOfOther(entry, xi);
-    const PieceEnds e = ends(entry);
-    return e.end - e.begin;
-  }
-  /// Unit outward normal at ξ; zero if the tangent vanishes.
-  [[nodiscard]] Vec2 normal(EntryId entry, double xi) const {
-    return unitOrZero(rightOf(tangent(entry, xi)));
-  }
+  [[nodiscard]] Vec2 tangent(EntryId entry, double xi) const;
 
   /// The entry's sampling point: that of `ContactSurfaces::slave`, without computing the stencil.
   [[nodiscard]] Vec2 slave(EntryId entry) const {
-    if (!points_.empty()) return points_[entry.value];
     const SegmentId segment = surfaces_.entrySegment[entry.value];
     const Vec2 a = positions_[surfaces_.segmentNode[segment.value].value];
-    if constexpr (!kSmooth) return a;
     const Piece piece = surfaces_.piece[entry.value];
     if (piece == Piece::kSegment || piece == Piece::kFirstHalf) return a;
     const SegmentId following = surfaces_.segmentNext[segment.value];
@@ -88,46 +73,9 @@ class PieceGeometryOf {
   }
 
   /// The foot of a point. On a straight piece ξ is that of the whole segment, without limits.
-  [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const {
-    if (!isWhole(entry)) return footOnOther(entry, point);
-    const PieceEnds e = ends(entry);
-    return footOnSegment(e.begin, e.end, point, {});
-  }
-  /// The quick test: false only if the point has no orthogonal foot with gap < 0 on the piece.
-  [[nodiscard]] bool mayPenetrate(EntryId entry, Vec2 point) const {
-    if (!isWhole(entry)) return mayPenetrateOther(entry, point);
-    const PieceEnds e = ends(entry);
-    return isBehindLine(e.begin, e.end, point);
-  }
+  [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const;
 
  private:
-  /// True for a segment between two corners. Most entries are of this kind and need their ends
-  /// only.
-  [[nodiscard]] bool isWhole(EntryId entry) const {
-    return !kSmooth || surfaces_.piece[entry.value] == Piece::kSegment;
-  }
-  static Vec2 unitOrZero(Vec2 a) {
-    const double length = norm(a);
-    return length > 0 ? (1 / length) * a : Vec2{};
-  }
-  static Foot footOnSegment(Vec2 a, Vec2 b, Vec2 point, PieceRange within) {
-    const Vec2 along = b - a;
-    const double square = dot(along, along);
-    Foot foot;
-    foot.xi = square > 0 ? dot(point - a, along) / square : within.begin;
-    foot.normal = unitOrZero(rightOf(along));
-    foot.gap = dot(point - a, foot.normal);
-    foot.inside = foot.xi >= within.begin && foot.xi <= within.end;
-    return foot;
-  }
-  static bool isBehindLine(Vec2 a, Vec2 b, Vec2 point) {
-    const Vec2 along = b - a;
-    return cross(along, point - a) >= -tolerance::kQuickLine * dot(along, along);
-  }
-  [[nodiscard]] Vec2 tangentOfOther(EntryId entry, double xi) const;
-  [[nodiscard]] Foot footOnOther(EntryId entry, Vec2 point) const;
-  [[nodiscard]] bool mayPenetrateOther(EntryId entry, Vec2 point) const;
-
   struct Corners {
     Vec2 a, b, c;
     bool arc;
@@ -144,20 +92,6 @@ class PieceGeometryOf {
 
   const ContactSurfaces& surfaces_;
   std::span<const Vec2> positions_;
-  std::span<const Vec2> points_;
 };
-
-extern template class PieceGeometryOf<true>;
-extern template class PieceGeometryOf<false>;
-/// For any surface.
-using PieceGeometry = PieceGeometryOf<true>;
-
-/// Calls `work` with the geometry class for these surfaces.
-template <class Work>
-auto withGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions, Work work,
-                  std::span<const Vec2> points = {}) {
-  if (surfaces.anySmooth()) return work(PieceGeometryOf<true>(surfaces, positions, points));
-  return work(PieceGeometryOf<false>(surfaces, positions, points));
-}
 
 }  // namespace yadefrag

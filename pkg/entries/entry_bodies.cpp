@@ -103,7 +103,7 @@ void EntryBodies::add(yade::Scene& scene, const World& world,
   const std::size_t first = bodies_.size();
   const std::vector<std::uint32_t> numbers = materialsAlong(world);
   for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
-    const NodeId begin = world.surfaces.segmentNode[world.surfaces.entrySegment[e].value];
+    const NodeId begin = world.surfaces.nodeOf(EntryId(e));
     append(scene, world, EntryId(e), materials[numbers.empty() ? 0 : numbers[begin.value]]);
   }
   mapEntries(first);

@@ -63,7 +63,7 @@ void RigidBodies::warnOfUnmoved() {
 /// The corner at which a piece of a rigid boundary begins.
 const RigidCorner& RigidBodies::cornerOf(const World& world, EntryId entry) const {
   const ContactSurfaces& surfaces = world.surfaces;
-  const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+  const NodeId corner = surfaces.nodeOf(entry);
   const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
   return corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
 }

@@ -269,7 +269,7 @@ TEST(Relink, TwoHalvesBetweenCornersAreTheSegment) {
   EXPECT_EQ(geometry.ends(first).end, geometry.ends(second).begin);
   EXPECT_EQ(geometry.box(first).max[0], 1.5);
   EXPECT_EQ(geometry.box(second).min[0], 1.5);
-  EXPECT_EQ(geometry.normal(second, .5), (Vec2{0, -1}));
+  EXPECT_EQ(normalOf(geometry, second, .5), (Vec2{0, -1}));
   // A point over the segment has its foot on one of the two, with the same gap on both.
   for (const Vec2 point : {Vec2{1.2, .1}, Vec2{1.7, .1}}) {
     EXPECT_EQ(geometry.foot(first, point).inside, point.x < 1.5);

@@ -21,6 +21,11 @@ inline ContactSurfaces oneLoop(const std::vector<std::uint8_t>& smooth) {
   return s;
 }
 
+inline Vec2 normalOf(const PieceGeometry& geometry, EntryId entry, double xi) {
+  const Vec2 right = rightOf(geometry.tangent(entry, xi));
+  return (1 / norm(right)) * right;
+}
+
 inline void checkSegments(const ContactSurfaces& s) {
   const std::size_t n = s.segments();
   ASSERT_TRUE(s.segmentNext.size() == n && s.segmentPrev.size() == n &&
