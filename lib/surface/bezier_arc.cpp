@@ -118,15 +118,6 @@ Vec2 safeTangent(const LocalArc& arc, double xi) {
 
 }  // namespace
 
-bool mayPenetrateArc(Vec2 a, Vec2 b, Vec2 c, Vec2 point) {
-  const Vec2 toB = b - a;
-  const Vec2 fromB = c - b;
-  const Vec2 along = toB + fromB;
-  if (dot(toB, along) <= 0 || dot(fromB, along) <= 0) return true;
-  const Vec2 onLine = (cross(toB, fromB) < 0 ? -.5 : -.25) * toB;
-  return cross(along, (point - b) - onLine) >= -tolerance::kQuickLine * dot(along, along);
-}
-
 Foot nearestOnArc(Vec2 a, Vec2 b, Vec2 c, Vec2 point) {
   const LocalArc arc{b - a, c - b, point - b};
   const Slope slope = slopeOfDistance(arc);

@@ -39,14 +39,6 @@ inline Vec2 combine(const ArcWeights& h, Vec2 a, Vec2 b, Vec2 c) {
   return h[0] * a + h[1] * b + h[2] * c;
 }
 
-/// The quick test of §5.3 (fig. 10): false only if the point cannot be on the material side of the
-/// arc with an orthogonal foot on it. At a concave node (the boundary turns right at b, with
-/// material on the left) the test line goes through the halfpoints, at a convex node through the
-/// quarterpoints; both lines are parallel to ac. At a very sharp corner a normal of the arc may
-/// point against the normal of the line. A deep point can then be beyond the line, and the test
-/// returns true for every point.
-bool mayPenetrateArc(Vec2 a, Vec2 b, Vec2 c, Vec2 point);
-
 /// The projection of a point on a boundary piece.
 struct Foot {
   /// Beyond an end the piece is extended along its tangent: ξ < 0 or ξ > 1 on an arc.

@@ -55,12 +55,6 @@ Foot PieceGeometryOf<kSmooth>::footOnOther(EntryId entry, Vec2 point) const {
   return n.arc ? nearestOnArc(n.a, n.b, n.c, point) : footOnSegment(n.a, n.b, point, range(entry));
 }
 
-template <bool kSmooth>
-bool PieceGeometryOf<kSmooth>::mayPenetrateOther(EntryId entry, Vec2 point) const {
-  const Corners n = corners(entry);
-  return n.arc ? mayPenetrateArc(n.a, n.b, n.c, point) : isBehindLine(n.a, n.b, point);
-}
-
 template class PieceGeometryOf<true>;
 template class PieceGeometryOf<false>;
 

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "core/box.hpp"
-#include "core/tolerances/surface.hpp"
 #include "surface/bezier_arc.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -93,12 +92,6 @@ class PieceGeometryOf {
     const PieceEnds e = ends(entry);
     return footOnSegment(e.begin, e.end, point, {});
   }
-  /// The quick test: false only if the point has no orthogonal foot with gap < 0 on the piece.
-  [[nodiscard]] bool mayPenetrate(EntryId entry, Vec2 point) const {
-    if (!isWhole(entry)) return mayPenetrateOther(entry, point);
-    const PieceEnds e = ends(entry);
-    return isBehindLine(e.begin, e.end, point);
-  }
 
  private:
   /// True for a segment between two corners. Most entries are of this kind and need their ends
@@ -120,13 +113,8 @@ class PieceGeometryOf {
     foot.inside = foot.xi >= within.begin && foot.xi <= within.end;
     return foot;
   }
-  static bool isBehindLine(Vec2 a, Vec2 b, Vec2 point) {
-    const Vec2 along = b - a;
-    return cross(along, point - a) >= -tolerance::kQuickLine * dot(along, along);
-  }
   [[nodiscard]] Vec2 tangentOfOther(EntryId entry, double xi) const;
   [[nodiscard]] Foot footOnOther(EntryId entry, Vec2 point) const;
-  [[nodiscard]] bool mayPenetrateOther(EntryId entry, Vec2 point) const;
 
   struct Corners {
     Vec2 a, b, c;

@@ -121,26 +121,6 @@ TEST(BezierArc, DegenerateNodesGiveNumbers) {
     }
 }
 
-TEST(BezierArc, QuickTestNeverRejectsAPenetration) {
-  // Any turn and unevenness, any depth up to the length of the longer segment.
-  Random random(4);
-  int rejectedOutside = 0;
-  int outside = 0;
-  for (int k = 0; k < 300000; ++k) {
-    const Triple t = randomTriple(random, 3.1, 100);
-    const double xi = even(random, 0, 1);
-    if (norm(combine(arcShapeDerivative(xi), t.a, t.b, t.c)) < 1e-6 * t.scale) continue;
-    const double longer = std::max(norm(t.b - t.a), norm(t.c - t.b));
-    const double depth = longer * std::pow(10., even(random, -10, 0));
-    ASSERT_TRUE(mayPenetrateArc(t.a, t.b, t.c, t.at(xi) - depth * t.normal(xi)))
-        << k << " turn " << t.turn << " depth " << depth / longer;
-    if (std::abs(t.turn) > .5) continue;
-    ++outside;
-    rejectedOutside += !mayPenetrateArc(t.a, t.b, t.c, t.at(xi) + .3 * t.scale * t.normal(xi));
-  }
-  EXPECT_GT(rejectedOutside, .8 * outside);  // and it does reject
-}
-
 // --- piece geometry
 
 EntryId entry(std::size_t e) { return EntryId(e); }
@@ -196,8 +176,6 @@ TEST(PieceGeometry, SmoothCircleIsNearlyRoundAndItsNormalsPointOutward) {
     EXPECT_NEAR(norm(g.normal(entry(e), 0) - (1 / norm(p)) * p), 0, 1e-12);
     const Foot foot = g.foot(entry(e), {0, 0});
     EXPECT_LT(foot.gap, -.99);
-    EXPECT_TRUE(g.mayPenetrate(entry(e), {0, 0}));
-    EXPECT_FALSE(g.mayPenetrate(entry(e), 1.2 * p));
   }
   EXPECT_NEAR(perimeter, 2 * std::numbers::pi, .01 * 2 * std::numbers::pi);
 }
@@ -220,25 +198,6 @@ TEST(PieceGeometry, NormalsOfASquareWithOneSmoothCorner) {
   EXPECT_NEAR(second.gap, -.1, 1e-15);
   EXPECT_TRUE(second.inside);
   EXPECT_FALSE(g.foot(entry(3), {.75, .9}).inside);
-}
-
-TEST(PieceGeometry, QuickTestIsNecessaryForEveryKindOfPiece) {
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> even(-2, 2);
-  for (int k = 0; k < 500; ++k) {
-    std::vector<std::uint8_t> smooth(6);
-    for (auto& flag : smooth) flag = random() % 2;
-    const auto x = bumpyLoop(random, 6);
-    const ContactSurfaces s = oneLoop(smooth);
-    const PieceGeometry g(s, x);
-    for (std::size_t e = 0; e < s.entries(); ++e) {
-      const Vec2 p{even(random), even(random)};
-      const Foot foot = g.foot(entry(e), p);
-      if (foot.inside && foot.gap < 0) {
-        EXPECT_TRUE(g.mayPenetrate(entry(e), p));
-      }
-    }
-  }
 }
 
 // --- A disc against the pieces of a boundary, by brute force: the nearest of many points.

@@ -15,7 +15,4 @@ inline constexpr int kMostFootSteps = 100;
 /// one.
 inline constexpr int kMostArcCuts = 20;
 
-/// (relative to the chord) Margin for rounding in the quick line test of a boundary piece.
-inline constexpr double kQuickLine = 1e-14;
-
 }  // namespace yadefrag::tolerance
