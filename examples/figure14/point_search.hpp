@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/comparisons.hpp"
+#include "figure14/comparisons.hpp"
 #include "core/csr.hpp"
 #include "core/ids.hpp"
 #include "core/vec2.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/comparisons.hpp"
+#include "figure14/comparisons.hpp"
 #include "curve/numbering.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"

@@ -262,31 +262,6 @@ TEST(IncrementalSearch, SameOrderForAnyNumberOfThreads) {
   EXPECT_GT(found, 10000U);
 }
 
-/// Comparisons of changes by one box among `count`.
-double comparisonsOfOneMove(std::size_t count) {
-  std::mt19937_64 random(5);
-  std::vector<Box> boxes = evenBoxes(count, random);
-  IncrementalSearch search(SearchMethod::kLebesgue, true);
-  search.update(boxes);
-  std::vector<BoxPair> pairs;
-  search.findPairs(pairs);
-  const auto before = search.comparisons().total();
-  constexpr int kMoves = 20;
-  for (int move = 0; move < kMoves; ++move) {
-    const BoxId one(random() % count);
-    boxes[one.value].max[1] += .1;
-    search.change(boxes, {&one, 1});
-    search.findPairsOfChanged(pairs);
-  }
-  return static_cast<double>(search.comparisons().total() - before) / kMoves;
-}
-
-TEST(IncrementalSearch, OneMoveCostsNoMoreAmongMany) {
-  // Without `count`, a search of 4·10⁴ boxes takes 4·10⁴ looks at least.
-  EXPECT_LT(comparisonsOfOneMove(40000), 1000);
-  EXPECT_LT(comparisonsOfOneMove(40000), 2 * comparisonsOfOneMove(1000) + 100);
-}
-
 TEST(IncrementalSearch, SortsInWhatHasWaitedForLong) {
   std::mt19937_64 random(6);
   std::vector<Box> boxes = evenBoxes(2000, random);
