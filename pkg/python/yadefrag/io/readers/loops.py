@@ -63,9 +63,10 @@ def joined(lines: Sequence[numpy.ndarray], gap: float) -> list[numpy.ndarray]:
         isLoop = len(line) > 3 and math.dist(line[0], line[-1]) <= gap
         (loops if isLoop else chains).append(line)
     partner = _partners(chains, gap)
-    left = set(range(len(chains)))
-    while left:
-        loops.append(_walk(chains, partner, left))
+    known: set[int] = set()
+    for first in range(len(chains)):
+        if first not in known:
+            loops.append(_walk(chains, partner, first, known))
     return [line[:-1] for line in loops]
 
 
@@ -98,18 +99,14 @@ def _partners(chains, gap):
     return found
 
 
-def _walk(chains, partner, left):
-    """One loop of the chains in `left`, which are removed from it; its first point is repeated at its end."""
-    first = end = (min(left), 0)
-    parts = []
-    while True:
+def _walk(chains, partner, first, known):
+    """One loop, from the chain `first` on, whose chains become `known`; its first point is repeated at its end."""
+    end, parts = (first, 0), []
+    while end[0] not in known:
         chain, side = end
-        left.remove(chain)
-        line = chains[chain]
-        parts.append((line if side == 0 else line[::-1])[:-1])
+        known.add(chain)
+        parts.append((chains[chain] if side == 0 else chains[chain][::-1])[:-1])
         end = partner[chain, -1 - side]
-        if end == first:
-            break
     return numpy.concatenate(parts + [parts[0][:1]])
 
 
