@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy
 
-from yadefrag.arguments import shown, shownPath
+from yadefrag.arguments import Loop, shown, shownPath
 from yadefrag.io.readers import Found, needed, refuseFile, requireTolerance
 
 _SHAPELY = 'python3-shapely'
@@ -26,25 +26,26 @@ def _contents(name):
     return data.decode('utf-16' if data[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8-sig', errors='replace')
 
 
-def loopsOf(name: str, cellsOf: Callable[[str], list[str]], mayBeHeading: bool) -> list[list[tuple[float, ...]]]:
+def loopsOf(name: str, cellsOf: Callable[[str], list[str]], mayBeHeading: bool) -> list[Loop]:
     """Loops of points from a text: two numbers on each line, an empty line between two loops, # before a comment.
     ValueError with the file and the line for anything else.
 
     cellsOf       function that divides a line
     mayBeHeading  True: the first line may have no numbers
     """
-    loops, right = [[]], 'it must be two finite numbers x, y'
+    loops: list[Loop] = [[]]
     for number, row in enumerate(_contents(name).splitlines(), 1):
         words = row.partition('#')[0].strip()
         if not words:
             if not row.strip():
                 loops.append([])
             continue
-        numbers = tuple(map(_number, cellsOf(words)))
+        numbers = list(map(_number, cellsOf(words)))
         if len(numbers) == 2 and all(map(math.isfinite, numbers)):
-            loops[-1].append(numbers)
+            loops[-1].append((numbers[0], numbers[1]))
         elif not mayBeHeading or not all(map(math.isnan, numbers)):
-            raise ValueError('%s, line %d: %s, %s.' % (shownPath(name), number, shown(words), right))
+            raise ValueError('%s, line %d: %s, it must be two finite numbers x, y.' %
+                             (shownPath(name), number, shown(words)))
         mayBeHeading = False
     return [loop for loop in loops if loop]
 
