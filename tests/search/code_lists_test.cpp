@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "figure14/comparisons.hpp"
 #include "curve/numbering.hpp"
+#include "figure14/comparisons.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
 #include "search/filter_list.hpp"
