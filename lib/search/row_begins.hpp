@@ -23,29 +23,36 @@ class RowBegins {
    public:
     /// Index of the first code ≥ `code`, for the row'th row of a rectangle. `codes` is ascending;
     /// its last element is greater than any code.
-    std::uint32_t lowerBound(int row, std::span<const std::uint64_t> codes, std::uint64_t code) {
+    template <class Count = Uncounted>
+    std::uint32_t lowerBound(int row, std::span<const std::uint64_t> codes, std::uint64_t code,
+                             Count&& count = {}) {
       std::uint32_t& begin = begins_[static_cast<std::size_t>(row) % begins_.size()];
+      count.range(1);
       for (int step = 0; begin > 0 && codes[begin - 1] >= code; ++step) {
-        if (step == tolerance::kRowSteps) return begin = bisectCodes(codes, 0, begin, code);
+        if (step == tolerance::kRowSteps) return begin = bisectCodes(codes, 0, begin, code, count);
+        count.range(1);
         --begin;
       }
       for (int step = 0; step < tolerance::kRowSteps; ++step) {
+        count.range(1);
         if (codes[begin] >= code) return begin;
         ++begin;
       }
-      return begin = gallop(codes, begin, code);
+      return begin = gallop(codes, begin, code, count);
     }
 
    private:
+    template <class Count>
     static std::uint32_t gallop(std::span<const std::uint64_t> codes, std::uint32_t begin,
-                                std::uint64_t code) {
+                                std::uint64_t code, Count& count) {
       const auto last = static_cast<std::uint32_t>(codes.size() - 1);
       std::uint32_t stride = 1;
       while (begin + stride <= last && codes[begin + stride - 1] < code) {
+        count.range(1);
         begin += stride;
         stride *= 2;
       }
-      return bisectCodes(codes, begin, std::min(last, begin + stride - 1), code);
+      return bisectCodes(codes, begin, std::min(last, begin + stride - 1), code, count);
     }
 
     std::array<std::uint32_t, 64> begins_{};

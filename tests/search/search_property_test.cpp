@@ -50,7 +50,7 @@ TEST(SearchProperty, SamePairsAsBruteForce) {
     RandomScene scene(seed);
     const auto brute = makeSearch(SearchMethod::kBruteForce);
     std::vector<std::unique_ptr<ContactSearch>> searches;
-    for (const SearchMethod method : kMethods) searches.push_back(makeSearch(method, seed % 2));
+    for (const SearchMethod method : kMethods) searches.push_back(makeSearch(method));
     for (int step = 0; step < 4; ++step) {
       const std::vector<BoxPair> expected = sortedPairs(*brute, scene.boxes());
       found += expected.size();
@@ -156,7 +156,7 @@ std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vecto
 /// The pairs that a caller keeps from one change to the next.
 class KeptPairs {
  public:
-  explicit KeptPairs(SearchMethod method, bool counts) : search_(method, counts) {}
+  explicit KeptPairs(SearchMethod method) : search_(method) {}
 
   void look(const std::vector<Box>& before, const std::vector<Box>& now) {
     std::vector<BoxPair> found;
@@ -198,7 +198,7 @@ TEST(IncrementalSearch, SamePairsAsBruteForceWhileBoxesMoveComeAndGo) {
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {
     RandomScene scene(seed);
     std::vector<KeptPairs> kept;
-    for (const SearchMethod method : kMethods) kept.emplace_back(method, seed % 2);
+    for (const SearchMethod method : kMethods) kept.emplace_back(method);
     std::vector<Box> before;
     for (int step = 0; step < 6; ++step) {
       // Another array each time: what was given before may be gone.
