@@ -105,22 +105,4 @@ std::vector<double> stressesAcross(const Model& model, double dt) {
   return result;
 }
 
-std::vector<double> elementEnergies(const Model& model, double dt) {
-  std::vector<double> result(model.triangles.size());
-  for (const Component& c : model.components) {
-    if (c.element == ElementKind::kSmoothed || c.yields()) continue;
-    Moduli m(c.material);
-    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
-      m.take(model, c, ElementId(e));
-      const Matrix2 f = deformationGradient(model, ElementId(e));
-      result[e] = c.thickness * model.triangles.area[e] *
-                  (energyDensity(f, m.lame, m.shear) +
-                   CollapseBarrier(determinant(f), m.lame + 2 * m.shear).energy);
-    }
-  }
-  setSmoothedEnergies(model, result);
-  setYieldingEnergies(model, dt, result);
-  return result;
-}
-
 }  // namespace yadefrag

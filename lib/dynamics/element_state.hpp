@@ -53,7 +53,4 @@ std::vector<std::array<double, 3>> stresses(const Model& model, double dt = 0);
 /// (Pa) The stress zz across the plane; 0 in plane stress.
 std::vector<double> stressesAcross(const Model& model, double dt = 0);
 
-/// (J) Strain energy of every element at the present positions.
-std::vector<double> elementEnergies(const Model& model, double dt = 0);
-
 }  // namespace yadefrag

@@ -138,16 +138,4 @@ void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>&
   });
 }
 
-void setSmoothedEnergies(const Model& model, std::vector<double>& energies) {
-  if (!anySmoothed(model)) return;
-  const std::vector<SplitGradient> means = smoothedMeans(model);
-  forEachSmoothed(model, [&](ElementId element) {
-    double& energy = energies[element.value];
-    energy = twiceOwnEnergy(model, element, 0) / 2;
-    for (const NodeId node : model.triangles.nodes[element.value])
-      energy += volumeOf(model, element) / 3 *
-                nodeEnergyDensity(means[node.value], model.bodyOf(element).material);
-  });
-}
-
 }  // namespace yadefrag

@@ -33,7 +33,4 @@ double smoothedEnergy(const Model& model, std::span<const ElementId> elements, d
 
 /// Sets the Cauchy stresses (Pa: xx, yy, xy), by triangle, from which the forces are computed.
 void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>& stresses);
-/// Sets the energies (J), by triangle: its own energy, and its parts of the nodes' energies.
-void setSmoothedEnergies(const Model& model, std::vector<double>& energies);
-
 }  // namespace yadefrag

@@ -251,22 +251,4 @@ std::size_t countYielding(const Model& model, ComponentId body) {
   return count;
 }
 
-void setYieldingEnergies(const Model& model, double dt, std::vector<double>& energies) {
-  const Yielding all(model, dt);
-  for (const Pair& p : all.pairs) {
-    const auto [bulk, shear] = p.constants.moduli;
-    const double modulus = model.bodyOf(p.element).material.waveModulus();
-    double energy =
-        deviatorEnergy(p.present.trial, p.present.kept, shear) +
-        CollapseBarrier(determinant(deformationGradient(model, p.element)), modulus).energy;
-    if (p.smoothed) {
-      for (const NodeId node : model.triangles.nodes[p.element.value])
-        energy += volumeEnergy(all.now[node.value], bulk) / 3;
-    } else {
-      energy += volumeEnergy(p.present.volume(), bulk);
-    }
-    energies[p.element.value] = p.volume * energy;
-  }
-}
-
 }  // namespace yadefrag

@@ -37,7 +37,4 @@ void setYieldingStresses(const Model& model, double dt,
 void setYieldingAcross(const Model& model, double dt, std::vector<double>& stresses);
 /// Triangles of a body that flow without any motion.
 [[nodiscard]] std::size_t countYielding(const Model& model, ComponentId body);
-/// (J) Strain energy of the elements of these bodies at the present positions.
-void setYieldingEnergies(const Model& model, double dt, std::vector<double>& energies);
-
 }  // namespace yadefrag

@@ -13,21 +13,14 @@
 #include "fracture/coarse_mesh.hpp"
 #include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
+#include "mesh/material_constants.hpp"
 #include "outline/convex_hull.hpp"
 
 namespace yadefrag {
 namespace {
 
-/// Of a factor of at most 1000, it is a finite number.
-constexpr double kMostPower = 10;
-
 /// A permitted value for messages, with a margin for the rounding to three digits.
 double atMost(double value) { return .99 * value; }
-
-void require(bool holds, const char* name, double value, const char* unit, const char* right) {
-  if (holds) return;
-  throw InputError(fmt::format("{} is {:.4g}{}; it must be {}.", name, value, unit, right));
-}
 
 struct EdgeSums {
   std::size_t inner = 0;
@@ -264,25 +257,11 @@ double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
 }  // namespace
 
 void checkBrittle(const BrittleMaterial& material) {
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  const auto notNegative = [](double x) { return x >= 0 && std::isfinite(x); };
-  require(positive(material.tensileStrength), "tensileStrength", material.tensileStrength, " Pa",
-          "positive and finite for a material that cracks");
-  require(notNegative(material.fractureEnergy), "fractureEnergy", material.fractureEnergy, " J/m²",
-          "positive and finite, or 0 for cracks that open at once");
-  require(positive(material.shearFactor), "shearFactor", material.shearFactor, "",
-          "positive and finite");
-  require(positive(material.shearEnergyFactor), "shearEnergyFactor", material.shearEnergyFactor, "",
-          "positive and finite");
-  require(notNegative(material.weibullModulus), "weibullModulus", material.weibullModulus, "",
-          "positive and finite, or 0 for strengths without this scatter");
-  require(notNegative(material.referenceVolume), "referenceVolume", material.referenceVolume, " m³",
-          "positive and finite, or 0 for strengths on which the volume has no influence");
-  require(material.strengthScatter >= 0 && material.strengthScatter < 1, "strengthScatter",
-          material.strengthScatter, "", "at least 0 and below 1");
-  require(material.rateEnergyPower >= 0 && material.rateEnergyPower <= kMostPower,
-          "rateEnergyPower", material.rateEnergyPower, "",
-          "from 0, for an energy without a rate effect, to 10");
+  const Constants<BrittleMaterial> all = brittleConstants();
+  std::string sentence = all.wrong(material);
+  if (sentence.empty() && material.tensileStrength == 0)
+    sentence = all.wrong(material, &BrittleMaterial::tensileStrength, all.front().limits.words);
+  if (!sentence.empty()) throw InputError(sentence);
 }
 
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt) {

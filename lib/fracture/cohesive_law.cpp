@@ -85,11 +85,6 @@ double spentEnergy(const TensionLaw& law, double largestOpening) {
   return law.strength * sum / 2;
 }
 
-double recoverableEnergy(const TensionLaw& law, double largestOpening, double opening) {
-  if (largestOpening <= 0) return 0;
-  return envelope(law, largestOpening) * opening / largestOpening * opening / 2;
-}
-
 double countedOpening(double own, double other, double criticalOpening) {
   const double apart = other - own;
   if (std::abs(apart) >= criticalOpening) return own + apart / 2;

@@ -19,10 +19,6 @@ struct TensionLaw {
 /// line. It is the area below the envelope minus the energy that is recoverable at δmax.
 [[nodiscard]] double spentEnergy(const TensionLaw& law, double largestOpening);
 
-/// (J/m²) Energy that is recovered by closing from δ, at or below δmax: ½T(δmax)δ²/δmax.
-[[nodiscard]] double recoverableEnergy(const TensionLaw& law, double largestOpening,
-                                       double opening);
-
 /// (m) The effective opening of one end of an edge, as a function of the largest openings of this
 /// end and of the other one: its own opening while both are similar, the mean where they differ by
 /// δc or more. An edge that opens at one end only, like a hinge, is then broken when it has

@@ -7,7 +7,6 @@
 //   least 1; or with a constant. A triangle has failed at a damage of 1. A frictional material has
 //   a constant, and fails where its tension limit is exceeded before the return.
 
-#include <array>
 #include <limits>
 #include <string>
 
@@ -17,11 +16,11 @@ struct FailureLaw {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   /// Constant failure strain, or the least one of Johnson and Cook's; infinite: none.
   double strain = kNone;
-  std::array<double, 5> d{};   ///< D₁ to D₅; all 0: none
+  double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;  ///< D₁ to D₅; all 0: none
   double spallStress = kNone;  ///< Pa, tensile mean stress; infinite: none; of a cone its limit
   double energy = 0;           ///< J/m², that opens a crack; 0: it opens at once
 
-  [[nodiscard]] bool hasFormula() const { return d[0] != 0 || d[1] != 0; }
+  [[nodiscard]] bool hasFormula() const { return d1 != 0 || d2 != 0; }
   [[nodiscard]] bool hasDamage() const { return hasFormula() || strain < kNone; }
   [[nodiscard]] bool isOn() const { return hasDamage() || spallStress < kNone; }
   bool operator==(const FailureLaw&) const = default;

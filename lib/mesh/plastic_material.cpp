@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/lane_math.hpp"
-#include "core/wrong_value.hpp"
+#include "mesh/material_constants.hpp"
 
 namespace yadefrag {
 namespace {
@@ -39,6 +39,39 @@ std::string wrongTable(const std::vector<HardeningPoint>& table) {
           stress, table[i - 1].stress);
   }
   return {};
+}
+
+std::string wrongCone(const PlasticMaterial& m) {
+  using M = PlasticMaterial;
+  const Constants<M> all = coneConstants();
+  if (std::string sentence = all.wrong(m); !sentence.empty()) return sentence;
+  if (m.dilation > m.internalFriction)
+    return wrongValue("dilationAngle", std::atan(m.dilation), "",
+                      "at least 0 and at most internalFriction");
+  if (m.failure.energy > 0 && m.cohesion == 0)
+    return all.wrong(m, &M::cohesion, "positive if fractureEnergy is given");
+  if (m.failure.energy > 0 && !(m.failure.spallStress > 0))
+    return all.wrong(m, &M::tensionLimit, "positive if fractureEnergy is given");
+  if (m.failure.energy > 0 && !m.failure.isOn())
+    return failureConstants().wrong(
+        m.failure, &FailureLaw::energy,
+        "0 unless failureStrain, tensionLimit or internalFriction is given");
+  return m.failure.wrong(false);
+}
+
+std::string wrongMetal(const PlasticMaterial& m) {
+  using M = PlasticMaterial;
+  const Constants<M> all = metalConstants();
+  if (std::string sentence = wrongTable(m.table); !sentence.empty()) return sentence;
+  if (m.table.empty() && !(m.yieldStress > 0))
+    return all.wrong(m, &M::yieldStress, "positive and finite");
+  if (std::string sentence = all.wrong(m); !sentence.empty()) return sentence;
+  if (m.offsetStrain > 0 && m.hardening > 0)
+    return all.wrong(m, &M::hardening, "0 if there is an offsetStrain");
+  const bool melts = m.meltTemperature > m.startTemperature && std::isfinite(m.meltTemperature);
+  if (m.thermalExponent > 0 && !melts)
+    return all.wrong(m, &M::meltTemperature, "above startTemperature, and finite");
+  return m.failure.wrong(melts);
 }
 
 }  // namespace
@@ -73,56 +106,7 @@ double thermalFactor(const PlasticMaterial& m, double temperature) {
 }
 
 std::string PlasticMaterial::wrong() const {
-  const auto isPositive = [](double v) { return v > 0 && std::isfinite(v); };
-  const auto isNotNegative = [](double v) { return v >= 0 && std::isfinite(v); };
-  if (cohesion != 0 || internalFriction != 0) {
-    if (!isNotNegative(cohesion))
-      return wrongValue("cohesion", cohesion, " Pa", "0 or positive, and finite");
-    if (!isNotNegative(internalFriction))
-      return wrongValue("internalFriction", std::atan(internalFriction), "",
-                        "at least 0 and below π/2 (rad)");
-    if (!(dilation >= 0 && dilation <= internalFriction))
-      return wrongValue("dilationAngle", std::atan(dilation), "",
-                        "at least 0 and at most internalFriction");
-    if (!(tensionLimit >= 0))
-      return wrongValue("tensionLimit", tensionLimit, " Pa", "0 or positive");
-    if (failure.energy > 0 && cohesion == 0)
-      return wrongValue("cohesion", cohesion, " Pa", "positive if fractureEnergy is given");
-    if (failure.energy > 0 && !(failure.spallStress > 0))
-      return wrongValue("tensionLimit", tensionLimit, " Pa", "positive if fractureEnergy is given");
-    if (failure.energy > 0 && !failure.isOn())
-      return wrongValue("fractureEnergy", failure.energy, " J/m²",
-                        "0 unless failureStrain, tensionLimit or internalFriction is given");
-    return failure.wrong(false);
-  }
-  if (std::string sentence = wrongTable(table); !sentence.empty()) return sentence;
-  if (!(table.empty() ? isPositive(yieldStress) : isNotNegative(yieldStress)))
-    return wrongValue("yieldStress", yieldStress, " Pa", "positive and finite");
-  if (!isNotNegative(hardening))
-    return wrongValue("hardening", hardening, " Pa", "0 or positive, and finite");
-  if (!(hardeningExponent > 0 && hardeningExponent <= 1))
-    return wrongValue("hardeningExponent", hardeningExponent, "", "above 0 and at most 1");
-  if (!isNotNegative(offsetStrain))
-    return wrongValue("offsetStrain", offsetStrain, "", "0 or positive, and finite");
-  if (offsetStrain > 0 && hardening > 0)
-    return wrongValue("hardening", hardening, " Pa", "0 if there is an offsetStrain");
-  if (!isNotNegative(rateFactor))
-    return wrongValue("rateFactor", rateFactor, "", "0 or positive, and finite");
-  if (!isPositive(referenceRate))
-    return wrongValue("referenceRate", referenceRate, " 1/s", "positive and finite");
-  if (!isNotNegative(thermalExponent))
-    return wrongValue("thermalExponent", thermalExponent, "", "0 or positive, and finite");
-  if (!isNotNegative(startTemperature))
-    return wrongValue("startTemperature", startTemperature, " K", "0 or positive, and finite");
-  if (thermalExponent > 0 &&
-      !(meltTemperature > startTemperature && std::isfinite(meltTemperature)))
-    return wrongValue("meltTemperature", meltTemperature, " K",
-                      "above startTemperature, and finite");
-  if (!isNotNegative(heatCapacity))
-    return wrongValue("heatCapacity", heatCapacity, " J/(kg K)", "0 or positive, and finite");
-  if (!(heatShare >= 0 && heatShare <= 1))
-    return wrongValue("heatShare", heatShare, "", "from 0 to 1");
-  return failure.wrong(meltTemperature > startTemperature && std::isfinite(meltTemperature));
+  return cohesion != 0 || internalFriction != 0 ? wrongCone(*this) : wrongMetal(*this);
 }
 
 }  // namespace yadefrag

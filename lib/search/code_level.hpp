@@ -56,10 +56,9 @@ class CodeLevel {
   }
 
   /// Inserts new entries, which ascend in slot.
-  template <class Count>
-  void insert(std::vector<CodedSlot>& incoming, Count& count) {
+  void insert(std::vector<CodedSlot>& incoming) {
     sortByCode(incoming);
-    list_.insert(incoming, count);
+    list_.insert(incoming);
     changed_ = true;
   }
 

@@ -6,31 +6,22 @@
 #include "search/planned_search.hpp"
 
 namespace yadefrag {
-namespace {
-
-template <class Count>
-std::unique_ptr<ContactSearch> make(SearchMethod method) {
+std::unique_ptr<ContactSearch> makeSearch(SearchMethod method) {
   switch (method) {
     case SearchMethod::kLebesgue:
-      return std::make_unique<PlannedSearch<Count, LebesgueNumbering>>();
+      return std::make_unique<PlannedSearch<LebesgueNumbering>>();
     case SearchMethod::kLinearCode:
-      return std::make_unique<PlannedSearch<Count, LinearNumbering>>();
+      return std::make_unique<PlannedSearch<LinearNumbering>>();
     case SearchMethod::kSweptRows:
-      return std::make_unique<PlannedSearch<Count, SweptRows>>();
+      return std::make_unique<PlannedSearch<SweptRows>>();
     case SearchMethod::kFastest:
-      return std::make_unique<PlannedSearch<Count, LebesgueNumbering, SweptRows>>();
+      return std::make_unique<PlannedSearch<LebesgueNumbering, SweptRows>>();
     case SearchMethod::kHierarchy:
-      return std::make_unique<HierarchySearch<Count>>();
+      return std::make_unique<HierarchySearch>();
     case SearchMethod::kBruteForce:
       break;
   }
-  return std::make_unique<BruteForce<Count>>();
-}
-
-}  // namespace
-
-std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons) {
-  return countComparisons ? make<CountAll>(method) : make<CountNothing>(method);
+  return std::make_unique<BruteForce>();
 }
 
 }  // namespace yadefrag

@@ -4,22 +4,26 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "core/wrong_value.hpp"
-#include "fracture/brittle_checks.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/initial_stress.hpp"
+#include "mesh/material_constants.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
 namespace {
 
+/// Unless the sentence is empty.
+void refuse(const std::string& sentence) {
+  if (!sentence.empty()) throw InputError(sentence);
+}
+
 void require(bool holds, const char* name, double value, const char* unit, const char* right) {
-  if (holds) return;
-  throw InputError(wrongValue(name, value, unit, right));
+  if (!holds) refuse(wrongValue(name, value, unit, right));
 }
 
 template <class Values>
@@ -70,33 +74,27 @@ void requireOfTriangles(const char* name, const std::vector<Value>& values,
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
 
-/// Of what fails.
+/// Only of what fails.
 void checkScatter(const BodyMaterial& one) {
-  BrittleMaterial scatter = one.brittle;
-  scatter.tensileStrength = 1;
-  checkBrittle(scatter);
-  const bool mayScatter = one.plastic.fails() && !one.plastic.isFrictional();
-  const char* none = "0 unless failureStrain, failureD1, failureD2 or spallStress is given";
-  require(mayScatter || scatter.weibullModulus == 0, "weibullModulus", scatter.weibullModulus, "",
-          none);
-  require(mayScatter || scatter.strengthScatter == 0, "strengthScatter", scatter.strengthScatter,
-          "", none);
+  if (one.plastic.fails() && !one.plastic.isFrictional()) return;
+  using M = BrittleMaterial;
+  for (double M::*const scatter : {&M::weibullModulus, &M::strengthScatter})
+    if (one.brittle.*scatter != 0)
+      refuse(brittleConstants().wrong(
+          one.brittle, scatter,
+          "0 unless failureStrain, failureD1, failureD2 or spallStress is given"));
 }
 
 void checkMaterial(const BodyMaterial& one) {
-  const ElasticMaterial& m = one.material;
-  const char* positive = "positive and finite";
-  require(isPositive(m.young), "young", m.young, " Pa", positive);
-  require(m.poisson > -1 && m.poisson < .5, "poisson", m.poisson, "", "above -1 and below 0.5");
-  require(isPositive(m.density), "density", m.density, " kg/m³", positive);
+  refuse(elasticConstants().wrong(one.material));
   require(one.friction >= 0 && std::isfinite(one.friction), "friction", one.friction, "",
           "0 or positive, and finite");
-  if (one.brittle.tensileStrength != 0) checkBrittle(one.brittle);
-  if (one.plastic.yields()) checkScatter(one);
-  if (one.plastic.isFrictional() && m.planeStress)
-    throw InputError("planeStress is True, but the material is frictional; it must be False.");
-  if (one.plastic.yields())
-    if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
+  refuse(brittleConstants().wrong(one.brittle));
+  if (!one.plastic.yields()) return;
+  checkScatter(one);
+  if (one.plastic.isFrictional() && one.material.planeStress)
+    refuse("planeStress is True, but the material is frictional; it must be False.");
+  refuse(one.plastic.wrong());
 }
 
 /// One material, or several with a number for each triangle.

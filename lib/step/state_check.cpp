@@ -1,3 +1,4 @@
+#include "mesh/material_constants.hpp"
 #include "step/world.hpp"
 
 #include <algorithm>
@@ -33,13 +34,9 @@ bool areLinks(const std::vector<Id>& next, const std::vector<Id>& prev) {
 }
 
 bool materialIsValid(const BodyMaterial& one) {
-  const ElasticMaterial& m = one.material;
-  return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
-         one.friction >= 0 && std::isfinite(one.friction) && one.brittle.tensileStrength >= 0 &&
-         (!one.plastic.yields() || one.plastic.wrong().empty()) &&
-         one.brittle.fractureEnergy >= 0 && one.brittle.shearFactor > 0 &&
-         one.brittle.shearEnergyFactor > 0 && one.brittle.referenceVolume >= 0 &&
-         one.brittle.rateEnergyPower >= 0 && std::isfinite(one.brittle.rateEnergyPower);
+  return elasticConstants().wrong(one.material).empty() && one.friction >= 0 &&
+         std::isfinite(one.friction) && brittleConstants().wrong(one.brittle).empty() &&
+         (!one.plastic.yields() || one.plastic.wrong().empty());
 }
 
 bool isValid(const Component& c, const Model& model) {

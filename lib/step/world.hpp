@@ -226,7 +226,6 @@ class World {
   // --- counters
   StageTimes times;
   [[nodiscard]] std::uint64_t numSearches() const { return search.count; }
-  [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return search.nodes; }
 
  private:
   void absorb(const StepLength& length);

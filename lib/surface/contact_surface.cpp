@@ -85,13 +85,6 @@ std::uint32_t ContactSurfaces::addLoop(std::span<const NodeId> nodes,
   return number;
 }
 
-void ContactSurfaces::removeComponent(ComponentId gone) {
-  std::vector<std::uint8_t> all(std::max_element(component.begin(), component.end())->value + 1U);
-  if (gone.value >= all.size()) return;
-  all[gone.value] = 1;
-  removeComponents(all);
-}
-
 auto ContactSurfaces::removeComponents(const std::vector<std::uint8_t>& gone) -> Numbers {
   const auto stays = [&](EntryId entry) { return gone[component[entry.value].value] == 0; };
   auto segmentNumbers =

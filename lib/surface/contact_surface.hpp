@@ -44,14 +44,12 @@ class ContactSurfaces {
   /// of the loop. Two nodes are a line with two sides.
   std::uint32_t addLoop(std::span<const NodeId> nodes, std::span<const std::uint8_t> smooth,
                         ComponentId component);
-  /// Removes all loops of a component; later entries move up, in order.
-  void removeComponent(ComponentId component);
   /// New numbers of segments and entries; none() of removed ones.
   struct Numbers {
     std::vector<SegmentId> segments;
     std::vector<EntryId> entries;
   };
-  /// The same for all components with a mark in `gone`.
+  /// Removes all loops of the components with a mark in `gone`; later entries move up, in order.
   Numbers removeComponents(const std::vector<std::uint8_t>& gone);
   /// Marks all pieces that begin at or after these nodes as removed; the nodes must be whole loops.
   void drop(std::span<const NodeId> nodes);

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "fe/column_archive.hpp"
+#include "mesh/material_constants.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -36,7 +37,7 @@ class WorldArchive : ColumnArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 21;
+  static constexpr std::uint64_t kFormat = 22;
 
   void all(World& world, std::vector<int>& entryBodies, std::vector<Vec2>& forces) {
     std::uint64_t format = kFormat;
@@ -139,48 +140,21 @@ class WorldArchive : ColumnArchive {
   /// Of bodies, or of a list.
   template <class C>
   void materials(std::vector<C>& rows) {
-    member("young", rows, [](C& c) -> double& { return c.material.young; });
-    member("poisson", rows, [](C& c) -> double& { return c.material.poisson; });
-    member("density", rows, [](C& c) -> double& { return c.material.density; });
+    const auto constants = [&](const auto& all, auto part) {
+      for (const auto& one : all)
+        member(one.name, rows, [&](C& c) -> double& { return part(c).*one.member; });
+    };
+    constants(elasticConstants(), [](C& c) -> ElasticMaterial& { return c.material; });
+    flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
     member("friction", rows, [](C& c) -> double& { return c.friction; });
-    member("tensileStrength", rows, [](C& c) -> double& { return c.brittle.tensileStrength; });
-    member("fractureEnergy", rows, [](C& c) -> double& { return c.brittle.fractureEnergy; });
-    member("shearFactor", rows, [](C& c) -> double& { return c.brittle.shearFactor; });
-    member("shearEnergyFactor", rows, [](C& c) -> double& { return c.brittle.shearEnergyFactor; });
-    member("weibullModulus", rows, [](C& c) -> double& { return c.brittle.weibullModulus; });
-    member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
+    constants(brittleConstants(), [](C& c) -> BrittleMaterial& { return c.brittle; });
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
-    member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
     curves("softeningCounts", "softeningPoints", rows,
            [](C& c) -> SofteningCurve& { return c.brittle.softening; });
     curves("rateCounts", "ratePoints", rows, [](C& c) -> RateEffect& { return c.brittle.rate; });
-    member("rateEnergyPower", rows, [](C& c) -> double& { return c.brittle.rateEnergyPower; });
-    plastic(rows);
-    flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
-  }
-
-  template <class C>
-  void plastic(std::vector<C>& rows) {
-    const auto constant = [&](const char* name, double PlasticMaterial::*which) {
-      member(name, rows, [which](C& c) -> double& { return c.plastic.*which; });
-    };
-    using P = PlasticMaterial;
-    constant("yieldStress", &P::yieldStress), constant("hardening", &P::hardening);
-    constant("hardeningExponent", &P::hardeningExponent);
-    constant("offsetStrain", &P::offsetStrain);
-    constant("rateFactor", &P::rateFactor), constant("referenceRate", &P::referenceRate);
-    constant("thermalExponent", &P::thermalExponent);
-    constant("meltTemperature", &P::meltTemperature);
-    constant("startTemperature", &P::startTemperature);
-    constant("heatCapacity", &P::heatCapacity), constant("heatShare", &P::heatShare);
-    constant("cohesion", &P::cohesion), constant("internalFriction", &P::internalFriction);
-    constant("dilation", &P::dilation), constant("tensionLimit", &P::tensionLimit);
-    member("failureStrain", rows, [](C& c) -> double& { return c.plastic.failure.strain; });
-    for (std::size_t i = 0; i < 5; ++i)
-      member(("failureD" + std::to_string(i + 1)).c_str(), rows,
-             [i](C& c) -> double& { return c.plastic.failure.d[i]; });
-    member("spallStress", rows, [](C& c) -> double& { return c.plastic.failure.spallStress; });
-    member("failureEnergy", rows, [](C& c) -> double& { return c.plastic.failure.energy; });
+    const auto plastic = [](C& c) -> PlasticMaterial& { return c.plastic; };
+    constants(metalConstants(), plastic), constants(coneConstants(), plastic);
+    constants(failureConstants(), [](C& c) -> FailureLaw& { return c.plastic.failure; });
     curves("hardeningCounts", "hardeningPoints", rows,
            [](C& c) -> std::vector<HardeningPoint>& { return c.plastic.table; });
   }

@@ -7,56 +7,22 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/wrong_value.hpp"
 #include "fracture/brittle_checks.hpp"
+#include "mesh/material_constants.hpp"
 
 namespace yadefrag {
 namespace {
 
-Attributes crackAttributes() {
-  using C = BrittleFEMat;
-  return attributeList(
-      attribute("tensileStrength", &C::brittle, &BrittleMaterial::tensileStrength,
-                "Tensile strength ft (Pa). An edge between two triangles cracks where its normal "
-                "stress sigma (positive: tension) and its shear stress tau reach "
-                "sqrt(sigma**2 + (tau/beta)**2) = ft under tension, or "
-                "|tau| = beta*ft + tan(phi)*|sigma| under pressure (Camacho and Ortiz 1996, Int. "
-                "J. Solids Struct. 33, 2899); beta is shearFactor, phi frictionAngle. So the "
-                "cohesion of Mohr and Coulomb is c = beta*ft."),
-      attribute("fractureEnergy", &C::brittle, &BrittleMaterial::fractureEnergy,
-                "Energy (J/m²) that opens a crack in tension; 0: it opens at once."),
-      attribute("shearFactor", &C::brittle, &BrittleMaterial::shearFactor,
-                "beta: shear strength over tensile strength. The shear strength is "
-                "beta*tensileStrength + tan(frictionAngle)*pressure: a larger beta makes it "
-                "harder to crack in shear."),
-      attribute(
-          "shearEnergyFactor", &C::brittle, &BrittleMaterial::shearEnergyFactor,
-          "kappa: energy per area that a crack dissipates in pure shear, relative to "
-          "fractureEnergy, that in pure tension (Snozzi and Molinari 2013, Int. J. Numer. Meth. "
-          "Eng. 93, 510). Friction between the faces dissipates additional energy. Without "
-          "fractureEnergy it has no effect."));
+/// Of the constants of a part that every class has, those of this class.
+template <class Part>
+Attributes attributesOf(Part FEMat::*part, const Constants<Part>& constants) {
+  Attributes all;
+  for (const Constant<Part>& one : constants)
+    if (*one.doc != 0) all.push_back(attribute(one.name, part, one.member, one.doc));
+  return all;
 }
 
-Attributes crackScatter() {
-  using C = BrittleFEMat;
-  return attributeList(
-      attribute("weibullModulus", &C::brittle, &BrittleMaterial::weibullModulus,
-                "Modulus m of a Weibull scatter of the strength (Weibull 1951, J. Appl. Mech. 18, "
-                "293): a part 1 - exp(-(s/scale)**m) of the edges is weaker than s. The scale is "
-                "tensileStrength, or depends on referenceVolume; 0: none."),
-      attribute("strengthScatter", &C::brittle, &BrittleMaterial::strengthScatter,
-                "Relative half-width of a uniform scatter of the strength; 0: none."),
-      attribute("seed", &C::seed, "Seed of the scatter's random numbers."),
-      attribute("referenceVolume", &C::brittle, &BrittleMaterial::referenceVolume,
-                "V0 (m³) for which tensileStrength is the scale of the Weibull scatter: an edge "
-                "with a volume V has the scale tensileStrength*(V0/V)**(1/m), so that "
-                "a finer mesh is not weaker. V is thickness times a third of the areas of the "
-                "edge's two triangles, so all edges together have the body's volume. 0: the "
-                "scale is tensileStrength for edges of any size, and the more edges, the weaker "
-                "the weakest. Without weibullModulus it has no effect."));
-}
-
-Attributes crackLaw() {
+Attributes curvesOfCracks() {
   using C = BrittleFEMat;
   return attributeList(
       attribute("softening", &C::softening,
@@ -93,81 +59,7 @@ Attributes crackLaw() {
           "multiplies the strength that an edge has by tensileStrength, strength, jointStrength, "
           "scatter and coarseMesh, and so the cohesion shearFactor*tensileStrength, but not the "
           "friction. An edge between two materials has the effect of the weaker one, bonds have "
-          "none. A crack keeps its factor."),
-      attribute(
-          "rateEnergyPower", &C::brittle, &BrittleMaterial::rateEnergyPower,
-          "p: where rateEffect multiplies the strength of an edge by a factor, its "
-          "fractureEnergy is multiplied by factor**p (as repow of LS-DYNA's MAT_CSCM, Murray "
-          "2007, FHWA-HRT-05-062). 1: the critical opening stays the same; 0: the energy does; "
-          "2: the length of the cohesive zone does."));
-}
-
-Attributes hardeningAttributes() {
-  using C = PlasticFEMat;
-  return attributeList(
-      attribute("yieldStress", &C::plastic, &PlasticMaterial::yieldStress,
-                "A (Pa): yield stress before any plastic strain, in slow deformation at "
-                "startTemperature."),
-      attribute("hardening", &C::plastic, &PlasticMaterial::hardening, "B (Pa); 0: no hardening."),
-      attribute("hardeningExponent", &C::plastic, &PlasticMaterial::hardeningExponent,
-                "n, above 0 and at most 1; 1: linear hardening."),
-      attribute("offsetStrain", &C::plastic, &PlasticMaterial::offsetStrain,
-                "p0: if it is not 0, the first factor is the power law A*(1 + p/p0)**n instead "
-                "of A + B*p**n."),
-      attribute("hardeningTable", &C::hardeningTable,
-                "'none', or a list of points (plastic strain, yield stress in Pa), which "
-                "replaces the first factor: strains from 0 on, increasing, stresses not "
-                "decreasing; linear between the points, constant after the last one."));
-}
-
-Attributes rateAndHeat() {
-  using C = PlasticFEMat;
-  return attributeList(
-      attribute("rateFactor", &C::plastic, &PlasticMaterial::rateFactor,
-                "C; 0: the rate has no effect."),
-      attribute("referenceRate", &C::plastic, &PlasticMaterial::referenceRate,
-                "Plastic strain rate (1/s) up to which the second factor is 1."),
-      attribute("thermalExponent", &C::plastic, &PlasticMaterial::thermalExponent,
-                "m; 0: the temperature has no effect on the yield stress."),
-      attribute("meltTemperature", &C::plastic, &PlasticMaterial::meltTemperature,
-                "Temperature (K) at which the yield stress is 0; without thermalExponent it has "
-                "no effect."),
-      attribute("startTemperature", &C::plastic, &PlasticMaterial::startTemperature,
-                "Temperature (K) of the body when it is added."),
-      attribute("heatCapacity", &C::plastic, &PlasticMaterial::heatCapacity,
-                "Specific heat (J/(kg K)); the plastic work heats each triangle, without "
-                "conduction. 0: the temperature stays the same."),
-      attribute("heatShare", &C::plastic, &PlasticMaterial::heatShare,
-                "Part of the plastic work that becomes heat (Taylor and Quinney)."));
-}
-
-Attributes failureAttributes() {
-  using C = PlasticFEMat;
-  return attributeList(
-      attribute("failureStrain", &C::failure, &FailureLaw::strain,
-                "Equivalent plastic strain at which a triangle fails; with failureD1 or "
-                "failureD2 the least failure strain of their formula. inf: none."),
-      attribute("failureD1", &C::failure, &FailureLaw::d, 0,
-                "D1 of Johnson and Cook's failure strain (1985, Eng. Fract. Mech. 21, 31): "
-                "(D1 + D2*exp(D3*s)) * (1 + D4*ln(rate/referenceRate)) * (1 + D5*T), with the "
-                "mean stress over von Mises' stress s (tension positive, at most 1.5), the rate "
-                "of the plastic strain (the factor is that of at least referenceRate) and T of "
-                "the yield stress. The sum of plastic strain increments over it is the damage; "
-                "at 1 the triangle fails: its edges open as those of a BrittleFEMat, with the "
-                "traction that acts then as their strength, and with fractureEnergy. "
-                "failureD1 = failureD2 = 0: none."),
-      attribute("failureD2", &C::failure, &FailureLaw::d, 1, "D2, 0 or positive."),
-      attribute("failureD3", &C::failure, &FailureLaw::d, 2,
-                "D3, 0 or negative; papers that count pressure as positive give -D3."),
-      attribute("failureD4", &C::failure, &FailureLaw::d, 3, "D4; 0: the rate has no effect."),
-      attribute("failureD5", &C::failure, &FailureLaw::d, 4,
-                "D5; 0: the temperature has no effect; otherwise with meltTemperature."),
-      attribute("spallStress", &C::failure, &FailureLaw::spallStress,
-                "Tensile mean stress (Pa) at which a triangle fails at once; inf: none."),
-      attribute("fractureEnergy", &C::failure, &FailureLaw::energy,
-                "Energy (J/m²) that opens a crack where the material has failed, from the "
-                "traction that acts to 0, linearly; 0: it opens at once. The plastic work until "
-                "then is not part of it."));
+          "none. A crack keeps its factor."));
 }
 
 Attributes failureScatter() {
@@ -197,34 +89,42 @@ Attributes FEMat::attributes() {
 }
 
 Attributes BrittleFEMat::attributes() {
-  return joined({crackAttributes(), crackScatter(), crackLaw()});
+  return joined(
+      {attributesOf(&FEMat::brittle, brittleConstants()),
+       attributeList(attribute("seed", &FEMat::seed, "Seed of the scatter's random numbers.")),
+       curvesOfCracks()});
 }
 
 Attributes PlasticFEMat::attributes() {
-  return joined({hardeningAttributes(), rateAndHeat(), failureAttributes(), failureScatter()});
+  return joined({attributesOf(&FEMat::plastic, metalConstants()),
+                 attributeList(attribute(
+                     "hardeningTable", &PlasticFEMat::hardeningTable,
+                     "'none', or a list of points (plastic strain, yield stress in Pa), which "
+                     "replaces the first factor: strains from 0 on, increasing, stresses not "
+                     "decreasing; linear between the points, constant after the last one.")),
+                 attributesOf(&FEMat::failure, failureConstants()), failureScatter()});
 }
 
 Attributes FrictionalFEMat::attributes() {
   using C = FrictionalFEMat;
-  return attributeList(
-      attribute("cohesion", &C::plastic, &PlasticMaterial::cohesion,
-                "c (Pa); 0: dry sand, with internalFriction."),
-      attribute("internalFriction", &C::internalFriction,
-                "phi (rad): the shear strength in plane strain is c + tan(phi)*pressure. "
-                "(frictionAngle is that of the surface, in contact.)"),
-      attribute("dilationAngle", &C::dilationAngle,
-                "psi (rad), at most phi: plastic flow increases the volume as a cone of this "
-                "angle; 0: it keeps the volume."),
-      attribute("tensionLimit", &C::plastic, &PlasticMaterial::tensionLimit,
-                "Largest tensile mean stress (Pa); inf: that of the cone's apex, c/tan(phi)."),
-      attribute("failureStrain", &C::failure, &FailureLaw::strain,
-                "Equivalent plastic strain, of any flow, at which a triangle fails; inf: none."),
-      attribute("fractureEnergy", &C::failure, &FailureLaw::energy,
-                "Energy (J/m²) of a crack. If it is not 0, a triangle fails also where its mean "
-                "stress would exceed the largest one, tensionLimit: its edges open as those of a "
-                "BrittleFEMat, with the traction that acts then as their strength, which falls "
-                "to 0 linearly. 0: tension flows there, and after failureStrain cracks open at "
-                "once."));
+  return joined(
+      {attributesOf(&FEMat::plastic, coneConstants()),
+       attributeList(
+           attribute("internalFriction", &C::internalFriction,
+                     "phi (rad): the shear strength in plane strain is c + tan(phi)*pressure. "
+                     "(frictionAngle is that of the surface, in contact.)"),
+           attribute("dilationAngle", &C::dilationAngle,
+                     "psi (rad), at most phi: plastic flow increases the volume as a cone of this "
+                     "angle; 0: it keeps the volume."),
+           attribute("failureStrain", &C::failure, &FailureLaw::strain,
+                     "Equivalent plastic strain, of any flow, at which a triangle fails; inf: "
+                     "none."),
+           attribute("fractureEnergy", &C::failure, &FailureLaw::energy,
+                     "Energy (J/m²) of a crack. If it is not 0, a triangle fails also where its "
+                     "mean stress would exceed the largest one, tensionLimit: its edges open as "
+                     "those of a BrittleFEMat, with the traction that acts then as their strength, "
+                     "which falls to 0 linearly. 0: tension flows there, and after failureStrain "
+                     "cracks open at once."))});
 }
 
 namespace {

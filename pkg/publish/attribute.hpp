@@ -3,7 +3,6 @@
 // What depends on the type only is compiled once for each of some ten types (ValueKind): with
 // functions for each class, attribute and archive the compiler took a minute.
 
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cstddef>
@@ -67,15 +66,6 @@ Attribute attribute(const char* name, Part Class::*part, Value Part::*member, co
   const std::ptrdiff_t inPart = std::bit_cast<std::ptrdiff_t>(member);
   return {name, doc, flags, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(part) + inPart};
 }
-/// An element of an array that is one.
-template <class Class, class Part, class Value, std::size_t kCount>
-Attribute attribute(const char* name, Part Class::*part, std::array<Value, kCount> Part::*member,
-                    std::size_t index, const char* doc) {
-  const auto inPart =
-      std::bit_cast<std::ptrdiff_t>(member) + static_cast<std::ptrdiff_t>(index * sizeof(Value));
-  return {name, doc, 0, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(part) + inPart};
-}
-
 template <class... Each>
 Attributes attributeList(const Each&... each) {
   return {each...};

@@ -332,36 +332,27 @@ bool RigidBodies::anyMovable(const yade::Scene& scene) const {
 std::vector<std::string> RigidBodies::takeSentences() { return std::exchange(sentences_, {}); }
 
 void RigidBodies::archive(AnyArchive& archive, const World& world) {
+  constexpr const char* kDamaged = "of FESolver is damaged (its rigid boundaries are invalid)";
   std::vector<int> ids;
-  std::vector<std::uint32_t> numbers;
-  std::vector<double> places;
   for (const Member& member : members_) ids.push_back(member.id);
-  for (const RigidCorner& corner : corners_) {
-    numbers.push_back(corner.member), numbers.push_back(corner.following);
-    for (const Vector3r* v : {&corner.place, &corner.end})
-      for (int i = 0; i < 3; ++i) places.push_back((*v)[i]);
-  }
   archive.item("rigidBodies", ids);
-  archive.item("rigidCorners", numbers);
-  archive.item("rigidPlaces", places);
-  if (archive.isLoading()) {
-    *this = {};
-    const std::size_t count = world.rigidNodes().size();
-    bool isValid = numbers.size() == 2 * count && places.size() == 6 * count;
-    for (std::size_t i = 0; isValid && i < count; ++i) {
-      const double* at = places.data() + 6 * i;
-      corners_.push_back(
-          {numbers[2 * i], numbers[2 * i + 1], {at[0], at[1], at[2]}, {at[3], at[4], at[5]}});
-      isValid = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
-    }
-    if (!isValid)
-      throw InputError(
-          "The saved state of FESolver is damaged (its rigid boundaries are invalid); "
-          "load another save.");
-    for (const int id : ids) {
-      members_.push_back({id});
-      members_.back().isNew = false;
-    }
+  if (archive.isLoading()) *this = {};
+  archive.rows("rigidCorners", "rigidPlaces", corners_, kDamaged,
+               [](RigidCorner& corner, const auto& each) {
+                 each(corner.member), each(corner.following);
+                 for (Vector3r* v : {&corner.place, &corner.end})
+                   for (int i = 0; i < 3; ++i) each((*v)[i]);
+               });
+  if (!archive.isLoading()) return;
+  const bool isValid = corners_.size() == world.rigidNodes().size() &&
+                       std::ranges::all_of(corners_, [&](const RigidCorner& corner) {
+                         return corner.member < ids.size() && corner.following < corners_.size();
+                       });
+  if (!isValid)
+    throw InputError("The saved state " + std::string(kDamaged) + "; load another save.");
+  for (const int id : ids) {
+    members_.push_back({id});
+    members_.back().isNew = false;
   }
 }
 

@@ -154,16 +154,6 @@ py::list pairsOf(const std::vector<Vec2>& points) {
   return pairs;
 }
 
-/// (outline, holes) as lists of pairs; ValueError as polygonFromText.
-py::tuple polygonOfText(const std::string& text) {
-  return asValueError([&] {
-    const Polygon polygon = polygonFromText(text);
-    py::list holes;
-    for (const auto& hole : polygon.holes) holes.append(pairsOf(hole));
-    return py::make_tuple(pairsOf(polygon.outline), holes);
-  });
-}
-
 /// The outline and the holes of outline/polygon.hpp's checkPolygon, as arrays.
 py::list checkedPolygon(const py::object& outline, const py::list& holes) {
   return asValueError([&] {
@@ -234,7 +224,6 @@ void defineMeshes() {
   py::def("latticeTimeStep", &latticeTimeStepOf);
   py::def("meshOfRectangle", &meshOfRectangle);
   py::def("sectionsOfScene", &sectionsOfScene);
-  py::def("polygonOfText", &polygonOfText);
   py::def("checkedPolygon", &checkedPolygon);
 }
 

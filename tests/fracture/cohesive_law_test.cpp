@@ -26,6 +26,11 @@ CohesiveHold holdAt(double largest, AcrossAlong compliance, double beta = 1, dou
   return {envelope(kLaw, largest), largest, beta, beta * beta / kappa, friction, compliance};
 }
 
+/// (J/m²) Energy that is recovered by closing from δ, at or below δmax: ½T(δmax)δ²/δmax.
+double recoverableEnergy(const TensionLaw& law, double largest, double opening) {
+  return largest > 0 ? envelope(law, largest) * opening / largest * opening / 2 : 0;
+}
+
 double traction(double largest, double trial, double compliance) {
   return faceTractions(holdAt(largest, {compliance, compliance}), {trial, 0}, 0).normal;
 }

@@ -1,7 +1,6 @@
-// scripts/fuzz, three programs by YADEFRAG_FUZZED. 1: libFuzzer with any text as a polygon file. 2:
-// with any bytes as the saved state of an FESolver, compiled so that the checksum, which no
-// mutation would pass, is not required: what is behind it has to stand damage by itself. 0: writes
-// what both begin with, FOLDER/polygon/plate and FOLDER/state/world.
+// scripts/fuzz, two programs by YADEFRAG_FUZZED. 1: libFuzzer with any bytes as the saved state of
+// an FESolver, compiled so that the checksum, which no mutation would pass, is not required: what
+// is behind it has to stand damage by itself. 0: writes what it begins with, FOLDER/state/world.
 
 #include <boost/archive/basic_archive.hpp>
 #include <cstddef>
@@ -11,7 +10,6 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "outline/polygon.hpp"
 #include "step/eventful_scenes.hpp"
 
 using namespace yadefrag;
@@ -29,8 +27,6 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const std::filesystem::path folder = arguments[1];
-  write(folder / "polygon" / "plate",
-        "# a plate\n\n0 0  # corner\n4 0\n4 3\r\n\n\n1 1\n1 2\n2e0 +1\n");
   World world = test::eventfulWorld(true);
   write(folder / "state" / "world", test::saved(world, boost::archive::no_header));
   return 0;
@@ -39,12 +35,8 @@ int main(int count, char** arguments) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string input(reinterpret_cast<const char*>(data), size);
   try {
-    if (YADEFRAG_FUZZED == 1) {
-      (void)polygonFromText(input);
-    } else {
-      World world;
-      test::load(input, world, boost::archive::no_header);
-    }
+    World world;
+    test::load(input, world, boost::archive::no_header);
   } catch (const InputError&) {
     // Refused, with a sentence.
   }

@@ -14,7 +14,8 @@ namespace {
 PlasticMaterial steel4340() {
   PlasticMaterial m;
   m.yieldStress = 792e6, m.meltTemperature = 1793, m.thermalExponent = 1;
-  m.failure.d = {.05, 3.44, -2.12, .002, .61};
+  m.failure.d1 = .05, m.failure.d2 = 3.44, m.failure.d3 = -2.12;
+  m.failure.d4 = .002, m.failure.d5 = .61;
   return m;
 }
 
@@ -66,21 +67,19 @@ TEST(FailureLaw, WrongConstantsAreRefused) {
             "failureStrain is 0; it must be positive, or infinite for none.");
   EXPECT_EQ(sentence([](FailureLaw& f) { f.strain = -1; }),
             "failureStrain is -1; it must be positive, or infinite for none.");
-  EXPECT_EQ(sentence([](FailureLaw& f) { f.d[2] = 2.12; }),
+  EXPECT_EQ(sentence([](FailureLaw& f) { f.d3 = 2.12; }),
             "failureD3 is 2.12; it must be 0 or negative, since tension reduces the failure "
             "strain.");
-  EXPECT_NE(sentence([](FailureLaw& f) { f.d[0] = -.2; }).find("it must be positive there"),
+  EXPECT_NE(sentence([](FailureLaw& f) { f.d1 = -.2; }).find("it must be positive there"),
             std::string::npos);
-  EXPECT_EQ(sentence([](FailureLaw& f) { f.d[0] = -.2, f.strain = .1; }), "");
-  EXPECT_NE(sentence([](FailureLaw& f) { f.d[1] = -1; }).find("failureD2 is -1"),
+  EXPECT_EQ(sentence([](FailureLaw& f) { f.d1 = -.2, f.strain = .1; }), "");
+  EXPECT_NE(sentence([](FailureLaw& f) { f.d2 = -1; }).find("failureD2 is -1"), std::string::npos);
+  EXPECT_NE(sentence([](FailureLaw& f) { f.d4 = -.05; }).find("failureD4 is -0.05"),
             std::string::npos);
-  EXPECT_NE(sentence([](FailureLaw& f) { f.d[3] = -.05; }).find("failureD4 is -0.05"),
+  EXPECT_NE(sentence([](FailureLaw& f) { f.d5 = -1; }).find("failureD5 is -1"), std::string::npos);
+  EXPECT_NE(sentence([](FailureLaw& f) { f.d1 = NAN; }).find("failureD1 is nan"),
             std::string::npos);
-  EXPECT_NE(sentence([](FailureLaw& f) { f.d[4] = -1; }).find("failureD5 is -1"),
-            std::string::npos);
-  EXPECT_NE(sentence([](FailureLaw& f) { f.d[0] = NAN; }).find("failureD1 is nan"),
-            std::string::npos);
-  EXPECT_NE(sentence([](FailureLaw& f) { f = {}, f.d[3] = .01; }).find("failureD4 is 0.01"),
+  EXPECT_NE(sentence([](FailureLaw& f) { f = {}, f.d4 = .01; }).find("failureD4 is 0.01"),
             std::string::npos);
   EXPECT_NE(sentence([](FailureLaw& f) { f.spallStress = 0; }).find("spallStress is 0 Pa"),
             std::string::npos);

@@ -38,8 +38,8 @@ double shortestNow(const World& world) {
 /// (m) How far the farthest surface node is from where it was at the last search.
 double farthest(const World& world) {
   double most = 0;
-  for (std::size_t i = 0; i < world.surfaceNodes().size(); ++i)
-    most = std::max(most, norm(world.model.nodes.position[world.surfaceNodes()[i].value] -
+  for (std::size_t i = 0; i < world.search.nodes.size(); ++i)
+    most = std::max(most, norm(world.model.nodes.position[world.search.nodes[i].value] -
                                world.search.positions[i]));
   return most;
 }
@@ -127,7 +127,7 @@ TEST(SearchInterval, MarginOfBoundsLastsUntilTheNextSearch) {
     world.step(dt);
     if (std::exchange(searches, world.numSearches()) != searches) made.clear();
     for (const Bounds& bounds : made)
-      for (const NodeId node : world.surfaceNodes()) {
+      for (const NodeId node : world.search.nodes) {
         const double moved =
             norm(world.model.nodes.position[node.value] - bounds.position[node.value]);
         ASSERT_LE(moved, bounds.margin + largestCorrection(world, dt)) << "step " << i;

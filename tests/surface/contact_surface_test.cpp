@@ -98,7 +98,9 @@ TEST(ContactSurfaces, RemovedComponentLeavesTheOthersAsTheyWere) {
     ContactSurfaces s = randomSurfaces(random, owner);
     const ComponentId gone(std::size_t{random() % 3});
     const auto before = fingerprint(s, gone);
-    s.removeComponent(gone);
+    std::vector<std::uint8_t> isGone(3);
+    isGone[gone.value] = 1;
+    s.removeComponents(isGone);
     checkLinks(s);
     checkPiecesJoin(s);
     EXPECT_EQ(fingerprint(s, ComponentId::none()), before);

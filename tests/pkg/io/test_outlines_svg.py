@@ -101,11 +101,11 @@ kConstructs = {
     'style sheet': ('<style>.a { fill: none } #b { fill: red } rect.c { display: none !important }</style>' + kFar +
                     kBox % ' class="x a"' + kBox % ' class="a" id="b"' + kBox % ' style="display:inline" class="c"',
                     3300, {**kUnpainted, **kHidden}),
-    'selectors': ('<style>/* no */ g > rect, g[id="k"] + rect { visibility: hidden }'
-                  '@media print { rect { fill: none } }</style><g id="k">' + kFar + '</g>' + kFar + kBox % '', 3200,
-                  {'hidden shapes': 2}),
-    'unusual selector': ('<style>rect:hover { fill: none }</style>' + kBox % '', 3200,
-                         {'style rules with an unusual selector': 1}),
+    'selectors': ('<style>/* no */ g > rect, #m  rect { visibility: hidden } svg>a *{fill:none}'
+                  '@media print { rect { fill: none } }</style><g>' + kFar + '</g><g id="m"><a>' + kFar + '</a></g>' +
+                  kBox % '', 3200, {'hidden shapes': 2}),
+    'unusual selector': ('<style>rect:hover, g[id="k"] + rect { fill: none }</style>' + kBox % '', 3200,
+                         {'style rules with an unusual selector': 2}),
     'current colour': (kBox % ' fill="currentColor" color="red"', 3200, {}),
     'rule nonzero': ('<path d="M0 0H40V40H0z M10 10H20V20H10z"/>', 1600, {'inner lines that the fill covers': 1}),
     'rule nonzero, turned': ('<path d="M0 0H40V40H0z M10 10V20H20V10z"/>', 1500, {}),

@@ -93,7 +93,7 @@ def test_csvHeadings(folder, first):
     text = '\n'.join(first.splitlines() + [row.replace(' ', separator) for row in kRows])
     file = written(folder, 'a.csv', text)
     if isinstance(wanted, str):
-        with pytest.raises(ValueError, match=wanted + ': .*it must be two numbers x, y'):
+        with pytest.raises(ValueError, match=wanted + ': .*it must be two finite numbers x, y'):
             readOutline(file)
     else:
         found = readOutline(file)

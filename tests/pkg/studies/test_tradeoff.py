@@ -94,15 +94,14 @@ def test_energyOutOfNothingIsABlowUp():
     class Scene:
         engines, bodies, dt = [FESolver()], [], 1
 
-    sanity = run_in_yade.Sanity(Scene())
     for balance in ((.9, 1., 0.), (6e-20, 0., 1e-18)):
         FESolver._energyBalance = balance
-        sanity.check()
+        run_in_yade.requireSane(Scene)
     for balance, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
                               ((1e-3, 0., 1e-18), 'the bodies had 0 J')):
         FESolver._energyBalance = balance
         with pytest.raises(run_in_yade.BlewUp, match=sentence):
-            sanity.check()
+            run_in_yade.requireSane(Scene)
 
 
 def test_aSceneAtRestDoesNotBlowUp():

@@ -17,7 +17,6 @@ from yadefrag.messages import shapely, treeOf
 
 CIRCLE_POINTS = 64
 MOST_POINTS = 10**7  # a longer list needs gigabytes
-_LEAST = 2.**-40  # of the tolerance: with less all points of a loop stay
 MOST_GRAINS = 10**5
 _TRIES = 10**4  # random points for a grain: of an outline that fills a thousandth of its box, ten are inside on average
 _BITS = 2**64 - 1
@@ -115,29 +114,15 @@ def _check(name, loop, tolerance):
 
 
 def _kept(loops, anchors, tolerance):
-    """The numbers of the points that stay, of each loop. `anchors`: at least two of each, which stay."""
-    shapes = shapely('geometry', 'simplify works')
-    tolerances = dict.fromkeys(range(len(loops)), tolerance)
-    kept, rings, wrong = list(loops), list(loops), set(tolerances)
-    while wrong:
-        for i in wrong:
-            kept[i] = _within(shapes, loops[i], anchors[i], tolerances[i]) if tolerances[i] > _LEAST * tolerance else \
-                list(range(len(loops[i])))
-            rings[i] = shapes.LinearRing(loops[i][kept[i]])
-        near = treeOf(rings, 'query', 'simplify works')
-        wrong = {i for i, ring in enumerate(rings) if len(kept[i]) < len(loops[i]) and
-                 (not ring.is_simple or any(i != k and ring.intersects(rings[k]) for k in near(ring)))}
-        for i in wrong:
-            tolerances[i] /= 2
-    return kept
-
-
-def _within(shapes, loop, anchors, tolerance):
-    numbers = {tuple(point): i for i, point in enumerate(loop.tolist())}
+    """The numbers of the points that stay, of each loop. `anchors`: at least two of each, which stay; no parts between
+    them cross each other afterwards."""
+    parts = [numpy.concatenate([loop, loop[:1]])[first:last + 1] for loop, stay in zip(loops, anchors)
+             for first, last in zip(stay, stay[1:] + [len(loop)])]
+    left = iter(shapely('geometry', 'simplify works').MultiLineString(parts).simplify(tolerance).geoms)
     kept = []
-    for first, last in zip(anchors, anchors[1:] + [len(loop)]):
-        part = shapes.LineString(numpy.concatenate([loop, loop[:1]])[first:last + 1])
-        kept += [numbers[point] for point in part.simplify(tolerance).coords[:-1]]
+    for loop, stay in zip(loops, anchors):
+        numbers = {tuple(point): i for i, point in enumerate(loop.tolist())}
+        kept.append([numbers[point] for _ in stay for point in list(next(left).coords)[:-1]])
     return kept
 
 

@@ -48,20 +48,15 @@ def chosenNodes(fe: FESolver, nodes: Nodes) -> numpy.ndarray:
     return chosen.astype(numpy.uint32)
 
 
-def timeTable(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, numpy.ndarray] | None:
-    """(times (k), values (k)) of a table of pairs; None for other types. ValueError for times that
-    do not ascend and values that are not finite."""
+def timeTable(value: Any) -> tuple[numpy.ndarray, numpy.ndarray] | None:
+    """(times (k), values (k)) of a table of pairs; None for other types."""
     if callable(value) or isinstance(value, (str, bytes, dict, set)) or real(value) is not None:
         return None
     rows = array(value)
     if rows is None or rows.ndim != 2 or rows.shape[1] != 2 or not len(rows) or rows.dtype.kind not in 'iuf':
         return None
-    rows = rows.astype(float)
-    if not numpy.isfinite(rows).all():
-        raise ValueError('%s has a number that is not finite; a table has pairs (s, %s).' % (name, unit))
-    if not (numpy.diff(rows[:, 0]) > 0).all():
-        raise ValueError('%s has times that do not ascend; a table has pairs (s, %s).' % (name, unit))
-    return rows[:, 0].copy(), rows[:, 1].copy()
+    times, values = rows.astype(float).T
+    return times, values
 
 
 def tableOrNumber(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, numpy.ndarray]:
@@ -69,7 +64,7 @@ def tableOrNumber(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, nump
     if real(value) is not None:
         one = number(name, value, math.isfinite, 'a finite number (%s)' % unit)
         return numpy.zeros(1), numpy.full(1, one)
-    table = timeTable(name, value, unit)
+    table = timeTable(value)
     if table is None:
         refuse(name, value, 'a finite number (%s) or a table of pairs (s, %s)' % (unit, unit))
     return table
@@ -84,7 +79,7 @@ def _motion(name, value, count):
         return value
     if real(value) is not None:
         return numpy.full(count, number(name, value, math.isfinite, _RIGHT))
-    table = timeTable(name, value, 'm/s')
+    table = timeTable(value)
     if table is not None:
         return table
     each = array(value)
@@ -92,8 +87,6 @@ def _motion(name, value, count):
         refuse(name, value, _RIGHT)
     if len(each) != count:
         raise ValueError('%s has %d values, it must have one for each of the %d nodes.' % (name, len(each), count))
-    if not numpy.isfinite(each).all():
-        raise ValueError('%s has a value that is not finite (m/s).' % name)
     return each.astype(float)
 
 

@@ -80,12 +80,10 @@ def readPolygon(file: File) -> Shape:
     for a file that cannot be read.
     """
     name = path('file', file)
-    with open(name, 'rb') as data:
-        text = data.read()
-    try:
-        return _yadefrag.polygonOfText(text)
-    except ValueError as error:
-        raise ValueError('%s, %s' % (shownPath(name), error)) from None
+    loops = plain.loopsOf(name, str.split, False)
+    if not loops:
+        raise ValueError('%s, line 1: no points, a line must hold x and y in metres.' % shownPath(name))
+    return loops[0], loops[1:]
 
 
 def outlinesOf(file: File, tolerance: float | None = None, scale: float = 1, gap: float | None = None,

@@ -282,9 +282,10 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
         raise ValueError('call is %s with every=%s: give a function and the number of steps between its '
                          'calls.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
+    import tqdm  # only if something runs
     omega = wrapper.Omega()
     done, begin = 0, stepsDone()
-    bar = _Bar(steps)
+    bar = tqdm.tqdm(total=steps, unit='step', disable=None)  # without one unless standard error is a terminal
     try:
         portion = 1
         while done < steps:
@@ -293,7 +294,8 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
                 start = time.perf_counter()
                 part, isPaused = runPart(now)
                 done += part
-                bar.show(done, omega.time)
+                bar.set_postfix_str('t = %.4g s' % omega.time, refresh=False)
+                bar.update(done - bar.n)
             if call is not None and every and part and done % every == 0:
                 call()
             if isPaused:
@@ -336,23 +338,3 @@ def runPart(steps: int) -> tuple[int, bool]:
         why = _yadefrag.whyStopped()
         raise RuntimeError('The run stopped in step %d%s' % (omega.iter, ': ' + why if why else '.'))
     return done, True
-
-
-class _Bar:
-    """Does nothing unless standard error is a terminal."""
-
-    def __init__(self, steps):
-        self.bar = None
-        if sys.stderr is not None and sys.stderr.isatty():
-            import tqdm  # only if it is visible
-            self.bar = tqdm.tqdm(total=steps, unit='step', file=sys.stderr)
-
-    def show(self, done, seconds):
-        if self.bar is not None:
-            self.bar.set_postfix_str('t = %.4g s' % seconds, refresh=False)
-            self.bar.update(done - self.bar.n)
-
-    def close(self):
-        if self.bar is not None:
-            self.bar.close()
-            self.bar = None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy
 
-from yadefrag.arguments import ArrayLike, File, array, number, path, refuse, text
+from yadefrag.arguments import ArrayLike, File, array, number, path, real, refuse, text
 from yadefrag.files import savePicture
 from yadefrag.messages import needed
 from yadefrag.plots.axes import DISTINCT, axesOf
@@ -139,8 +139,9 @@ class EnsembleTable:
         if by is None:
             groups = grouped(self.rows, names)
             values = [of.get(names[0]) if len(names) == 1 else None for of, _ in groups]
-            return [(of, value if _isNumber(value) else math.nan, rows) for (of, rows), value in zip(groups, values)]
-        if not self.rows or not all(isinstance(by, str) and _isNumber(row.settings.get(by)) for row in self.rows):
+            values = [math.nan if real(value) is None else value for value in values]
+            return [(of, value, rows) for (of, rows), value in zip(groups, values)]
+        if not self.rows or not isinstance(by, str) or None in [real(row.settings.get(by)) for row in self.rows]:
             refuse('by', by, 'the name of a setting that is a number in all rows')
         names = [name for name in names if name != by] + [by]
         return sorted(((of, of[by], rows) for of, rows in grouped(self.rows, names)), key=lambda one: one[1])
@@ -228,10 +229,6 @@ class EnsembleTable:
     def namesOfFiles(files: File) -> list[str]:
         """Names of the files that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.png')]
-
-
-def _isNumber(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _meanText(line, among):

@@ -45,31 +45,25 @@ def load(job: dict[str, Any]) -> list[Any]:
     return [names[name] if name else None for name in job['functions']]
 
 
-class Sanity:
-    """Checks a run: all values are finite, no energy is created, no sphere has an absurd speed."""
-
-    def __init__(self, omega: Omega) -> None:
-        self.omega = omega
-        self.solvers = [e for e in omega.engines if type(e).__name__ == 'FESolver']
-
-    def check(self) -> None:
-        """Raises BlewUp with a sentence."""
-        for fe in self.solvers:
-            excess, most, rounding = fe._energyBalance
-            if not math.isfinite(excess):
-                raise BlewUp('the energy is %r J.' % excess)
-            if excess > max(most, rounding):
-                raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.' % (excess, most))
-        for body in self.omega.bodies:
-            radius = getattr(body.shape, 'radius', None)
-            if radius is None:
-                continue
-            speed = body.state.vel.norm()
-            if not (math.isfinite(speed) and math.isfinite(body.state.pos.norm())):
-                raise BlewUp('body %d is at no finite place or speed.' % body.id)
-            if speed * self.omega.dt > MOST_RADII * radius:
-                raise BlewUp('body %d moves by %.3g of its radii in one step.' %
-                             (body.id, speed * self.omega.dt / radius))
+def requireSane(omega: Omega) -> None:
+    """All values are finite, no energy is created, no sphere has an absurd speed; BlewUp with a sentence otherwise."""
+    for fe in omega.engines:
+        if type(fe).__name__ != 'FESolver':
+            continue
+        excess, most, rounding = fe._energyBalance
+        if not math.isfinite(excess):
+            raise BlewUp('the energy is %r J.' % excess)
+        if excess > max(most, rounding):
+            raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.' % (excess, most))
+    for body in omega.bodies:
+        radius = getattr(body.shape, 'radius', None)
+        if radius is None:
+            continue
+        speed = body.state.vel.norm()
+        if not (math.isfinite(speed) and math.isfinite(body.state.pos.norm())):
+            raise BlewUp('body %d is at no finite place or speed.' % body.id)
+        if speed * omega.dt > MOST_RADII * radius:
+            raise BlewUp('body %d moves by %.3g of its radii in one step.' % (body.id, speed * omega.dt / radius))
 
 
 def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every: float,
@@ -80,7 +74,7 @@ def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every
     if duration <= omega.dt / 2:
         raise ValueError('duration is %.6g s, at most half of the scene\'s step of %.6g s: no step '
                          'would be done.' % (duration, omega.dt))
-    sanity, seen = Sanity(omega), []
+    seen = []
     begin, first, wall, cpu, checked = omega.time, omega.iter, 0., 0., 0.
     end = begin + duration - omega.dt / 2
     moment = begin + every if watch else end  # next call of watch
@@ -89,12 +83,12 @@ def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every
         advance(omega, min(moment, end))
         wall, cpu = wall + time.perf_counter() - start[0], cpu + time.process_time() - start[1]
         if wall - checked > CHECK_EVERY:
-            sanity.check()
+            requireSane(omega)
             checked = wall
         if watch and omega.time >= min(moment, end):
             seen.append(watch(built))
             moment += every
-    sanity.check()
+    requireSane(omega)
     simulated = omega.time - begin
     return dict(wall=wall / simulated, cpu=cpu / simulated, seconds=wall, steps=omega.iter - first), seen
 

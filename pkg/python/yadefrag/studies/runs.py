@@ -152,7 +152,7 @@ class Finished:
             raise ValueError('%s has runs of another scene, file, duration or measure; use another '
                              'file, or remove it.' % shownPath(self.name))
         for line in lines[1:]:
-            self._known[_key(line['of'])] = line['result']
+            self._known[keyOf(line['of'])] = line['result']
         # An incomplete line, written during an interrupt, is left out.
         writeText(self.name, ''.join(json.dumps(line) + '\n' for line in lines or [of]))
 
@@ -173,12 +173,13 @@ class Finished:
 
     def get(self, of: dict[str, Any]) -> dict[str, Any] | None:
         """The result of a run; None if it has not been done."""
-        return self._known.get(_key(of))
+        return self._known.get(keyOf(of))
 
     def add(self, of: dict[str, Any], result: dict[str, Any]) -> None:
         if self.name and not result.get('isLost'):
             appendText(self.name, json.dumps(dict(of=of, result=result)) + '\n')
 
 
-def _key(of):
+def keyOf(of: dict[str, Any]) -> str:
+    """Of a dict, with the types of its values: True is not 1."""
     return json.dumps(of, sort_keys=True)

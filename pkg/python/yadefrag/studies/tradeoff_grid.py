@@ -7,7 +7,6 @@ tradeoff_table.py the table.
 from __future__ import annotations
 
 import itertools
-import json
 import math
 import os
 import warnings
@@ -20,7 +19,7 @@ from yadefrag.arguments import ArrayLike, File, path, plain, refuse, shown, show
 from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
-from yadefrag.studies.runs import Finished, counted, jobOf, runAll
+from yadefrag.studies.runs import Finished, counted, jobOf, keyOf, runAll
 from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases
 
 _REPEATABLE = ('not run', 'ok')
@@ -127,7 +126,7 @@ def _grid(vary):
         lists = [_values(name, values) for name, values in grid.items()]
         for combination in itertools.product(*lists):
             setting = dict(zip(grid, combination))
-            if _key(setting) not in map(_key, settings):  # with the type: True is not 1
+            if keyOf(setting) not in map(keyOf, settings):  # with the type: True is not 1
                 settings.append(setting)
     return settings
 
@@ -136,7 +135,7 @@ def _withReferences(settings, right, by):
     """The settings, and after them those of the reference: `right` in each problem."""
     wanted = [{**{n: s[n] for n in (*by, SEED) if n in s}, **right} for s in settings]
     for one in wanted:
-        if _key(one) not in map(_key, settings):
+        if keyOf(one) not in map(keyOf, settings):
             settings = settings + [one]
     return settings
 
@@ -148,10 +147,6 @@ def _values(name, values):
     if not isinstance(values, (list, tuple, range)) or not values:
         raise ValueError('vary has %s for the choice %s, it must be a list of values.' % (shown(values), shown(name)))
     return [checkChoice(name, value) for value in values]
-
-
-def _key(setting):
-    return json.dumps(setting, sort_keys=True)
 
 
 def _reference(reference):
@@ -196,8 +191,8 @@ def _setErrors(table, right, settings):
         if isinstance(right, str):
             reference = _finest(good)
         elif isinstance(right, dict):
-            wanted = _key({**case, **right})
-            reference = next(row for row in table.rows if _key(of[id(row)]) == wanted)
+            wanted = keyOf({**case, **right})
+            reference = next(row for row in table.rows if keyOf(of[id(row)]) == wanted)
         else:
             reference = None
         if isinstance(right, dict) and reference.result != 'ok':

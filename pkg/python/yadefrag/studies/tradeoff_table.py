@@ -353,5 +353,4 @@ def _values(rows, name):
 
 def _isSample(rows, name):
     values = [row.settings.get(name) for row in rows]
-    areNumbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
-    return areNumbers and 1 < len(rows) == len(set(values))
+    return None not in map(real, values) and 1 < len(rows) == len(set(values))

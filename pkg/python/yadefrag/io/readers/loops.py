@@ -7,11 +7,13 @@ import math
 from collections.abc import Sequence
 
 import numpy
+from scipy.spatial import cKDTree
 
 from yadefrag.arguments import shown, shownPath
+from yadefrag.messages import shapely, treeOf
 
 Region = tuple[numpy.ndarray, list[numpy.ndarray]]
-_CHUNK = 2 * 10**6  # pairs of an edge and a place per block
+_WORKS = 'reading outlines works'
 
 
 def withoutCopies(shapes: Sequence[list[numpy.ndarray]], gap: float) -> tuple[list[list[numpy.ndarray]], int]:
@@ -61,9 +63,10 @@ def joined(lines: Sequence[numpy.ndarray], gap: float) -> list[numpy.ndarray]:
         isLoop = len(line) > 3 and math.dist(line[0], line[-1]) <= gap
         (loops if isLoop else chains).append(line)
     partner = _partners(chains, gap)
-    left = set(range(len(chains)))
-    while left:
-        loops.append(_walk(chains, partner, left))
+    known: set[int] = set()
+    for first in range(len(chains)):
+        if first not in known:
+            loops.append(_walk(chains, partner, first, known))
     return [line[:-1] for line in loops]
 
 
@@ -83,41 +86,27 @@ def withoutDoubles(line: numpy.ndarray, gap: float) -> numpy.ndarray:
 def _partners(chains, gap):
     """{(chain, 0 or -1): (chain, 0 or -1)}: pairs of ends that meet."""
     ends = [(i, side) for i in range(len(chains)) for side in (0, -1)]
-    cells = {}
-    for end in ends:
-        cells.setdefault(_cell(chains, end, gap), []).append(end)
+    if not ends:
+        return {}
+    places = numpy.array([chains[i][side] for i, side in ends])
     found = {}
-    for end in ends:
-        x, y = _cell(chains, end, gap)
-        place = chains[end[0]][end[1]]
-        near = [other for i in (-1, 0, 1) for j in (-1, 0, 1)
-                for other in cells.get((x + i, y + j), ())
-                if other != end and math.dist(place, chains[other[0]][other[1]]) <= gap]
-        if len(near) != 1:
-            words = 'ends at %s where no other one begins' if not near else \
+    for number, near in enumerate(cKDTree(places).query_ball_point(places, gap)):
+        if len(near) != 2:
+            words = 'ends at %s where no other one begins' if len(near) == 1 else \
                 'ends at %s together with more than one other'
-            raise ValueError('a line %s: an outline is closed.' % (words % shown(tuple(place))))
-        found[end] = near[0]
+            raise ValueError('a line %s: an outline is closed.' % (words % shown(tuple(places[number].tolist()))))
+        found[ends[number]] = ends[sum(near) - number]
     return found
 
 
-def _cell(chains, end, gap):
-    x, y = chains[end[0]][end[1]]
-    return math.floor(x / gap), math.floor(y / gap)
-
-
-def _walk(chains, partner, left):
-    """One loop of the chains in `left`, which are removed from it; its first point is repeated at its end."""
-    first = end = (min(left), 0)
-    parts = []
-    while True:
+def _walk(chains, partner, first, known):
+    """One loop, from the chain `first` on, whose chains become `known`; its first point is repeated at its end."""
+    end, parts = (first, 0), []
+    while end[0] not in known:
         chain, side = end
-        left.remove(chain)
-        line = chains[chain]
-        parts.append((line if side == 0 else line[::-1])[:-1])
+        known.add(chain)
+        parts.append((chains[chain] if side == 0 else chains[chain][::-1])[:-1])
         end = partner[chain, -1 - side]
-        if end == first:
-            break
     return numpy.concatenate(parts + [parts[0][:1]])
 
 
@@ -195,62 +184,10 @@ def _parts(outline, holes, isSplit):
 
 def around(regions: list[Region]) -> list[list[int]]:
     """For each region, whose loops are counter-clockwise, the numbers of those that contain it."""
-    loops, owners, isHole = [], [], []
-    for i, (outline, holes) in enumerate(regions):
-        loops += [outline, *holes]
-        owners += [i] * (1 + len(holes))
-        isHole += [False] + [True] * len(holes)
+    polygon, prep = shapely('geometry', _WORKS).Polygon, shapely('prepared', _WORKS).prep
     sizes = areas([outline for outline, _ in regions])
-    inner, loop = _containing(numpy.array([_inside(outline) for outline, _ in regions]), loops)
-    outer = numpy.array(owners)[loop]
-    isHole = numpy.array(isHole)[loop]
-    inHole = set(zip(inner[isHole].tolist(), outer[isHole].tolist()))
-    isWithin = ~isHole & (sizes[outer] > sizes[inner])
-    found = [[] for _ in regions]
-    for pair in zip(inner[isWithin].tolist(), outer[isWithin].tolist()):
-        if pair not in inHole:
-            found[pair[0]].append(pair[1])
-    return found
-
-
-def _containing(places, loops):
-    """(numbers of places, numbers of loops): all pairs of a place inside a loop.
-
-    The edges of all loops meet the places on their heights: a place with an odd number of a loop's
-    edges to its right is inside.
-    """
-    starts = numpy.concatenate(loops)
-    ends = numpy.concatenate([part for loop in loops for part in (loop[1:], loop[:1])])
-    owner = numpy.repeat(numpy.arange(len(loops)), [len(loop) for loop in loops])
-    left = numpy.array([loop[:, 0].min() for loop in loops])[owner]
-    order = numpy.argsort(places[:, 1], kind='stable')
-    heights = places[order, 1]
-    first = numpy.searchsorted(heights, numpy.minimum(starts[:, 1], ends[:, 1]))
-    count = numpy.searchsorted(heights, numpy.maximum(starts[:, 1], ends[:, 1])) - first
-    before = numpy.concatenate([[0], numpy.cumsum(count)])
-    crossed = []
-    for low in range(0, int(before[-1]), _CHUNK):
-        pairs = numpy.arange(low, min(low + _CHUNK, int(before[-1])))
-        edge = numpy.searchsorted(before, pairs, side='right') - 1
-        place = order[first[edge] + pairs - before[edge]]
-        x, y = places[place].T
-        a, b = starts[edge], ends[edge]
-        isRight = (x >= left[edge]) & \
-            (a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1]) > x)
-        crossed.append(place[isRight] * len(loops) + owner[edge[isRight]])
-    crossed, times = numpy.unique(numpy.concatenate(crossed or [order[:0]]), return_counts=True)
-    return numpy.divmod(crossed[times % 2 == 1], len(loops))
-
-
-def _inside(loop):
-    """A point inside a loop: the middle of the first widest interval on a horizontal line."""
-    points = loop.tolist()
-    heights = sorted({y for _, y in points})
-    if len(heights) < 2:
-        return points[0]
-    step, low = max((above - y, -y) for y, above in zip(heights, heights[1:]))
-    y = step / 2 - low
-    x = sorted(a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1])
-               for a, b in zip(points, points[1:] + points[:1]) if (a[1] > y) != (b[1] > y))
-    width, left = max((right - one, -one) for one, right in zip(x[::2], x[1::2]))
-    return width / 2 - left, y
+    solids = [polygon(outline, holes) for outline, holes in regions]
+    near, prepared = treeOf(solids, 'query', _WORKS), list(map(prep, solids))
+    places = [polygon(outline).representative_point() for outline, _ in regions]
+    return [sorted(k for k in near(place) if sizes[k] > sizes[i] and prepared[k].contains(place))
+            for i, place in enumerate(places)]

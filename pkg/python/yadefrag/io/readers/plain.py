@@ -1,11 +1,13 @@
 """Contents of files without curves: CSV, GeoJSON, WKT; contours of a silhouette, by scikit-image."""
 
 import json
+import math
 import re
+from collections.abc import Callable
 
 import numpy
 
-from yadefrag.arguments import shown, shownPath
+from yadefrag.arguments import Loop, shown, shownPath
 from yadefrag.io.readers import Found, needed, refuseFile, requireTolerance
 
 _SHAPELY = 'python3-shapely'
@@ -24,25 +26,34 @@ def _contents(name):
     return data.decode('utf-16' if data[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8-sig', errors='replace')
 
 
-def readCsv(name: str, tolerance: float | None) -> Found:
-    """`x, y` on each line, an empty line between two loops, # before a comment, one heading without
-    numbers. Numbers may be quoted; those with a decimal comma are separated by semicolons."""
-    rows = _contents(name).splitlines()
-    loops, mayBeHeading = [[]], True
-    for number, row in enumerate(rows, 1):
+def loopsOf(name: str, cellsOf: Callable[[str], list[str]], mayBeHeading: bool) -> list[Loop]:
+    """Loops of points from a text: two numbers on each line, an empty line between two loops, # before a comment.
+    ValueError with the file and the line for anything else.
+
+    cellsOf       function that divides a line
+    mayBeHeading  True: the first line may have no numbers
+    """
+    loops: list[Loop] = [[]]
+    for number, row in enumerate(_contents(name).splitlines(), 1):
         words = row.partition('#')[0].strip()
         if not words:
             if not row.strip():
                 loops.append([])
             continue
-        cells = _cells(words)
-        numbers = list(map(_number, cells))
-        if len(cells) == 2 and None not in numbers:
-            loops[-1].append(numbers)
-        elif not mayBeHeading or numbers.count(None) < len(numbers):
-            raise ValueError('%s, line %d: %s, it must be two numbers x, y.' % (shownPath(name), number, shown(words)))
+        numbers = list(map(_number, cellsOf(words)))
+        if len(numbers) == 2 and all(map(math.isfinite, numbers)):
+            loops[-1].append((numbers[0], numbers[1]))
+        elif not mayBeHeading or not all(map(math.isnan, numbers)):
+            raise ValueError('%s, line %d: %s, it must be two finite numbers x, y.' %
+                             (shownPath(name), number, shown(words)))
         mayBeHeading = False
-    return Found([numpy.array(loop + loop[:1]) for loop in loops if loop])
+    return [loop for loop in loops if loop]
+
+
+def readCsv(name: str, tolerance: float | None) -> Found:
+    """`x, y` on each line, with one heading without numbers. Numbers may be quoted; those with a decimal comma are
+    separated by semicolons."""
+    return Found([numpy.array(loop + loop[:1]) for loop in loopsOf(name, _cells, True)])
 
 
 def _cells(words):
@@ -52,10 +63,11 @@ def _cells(words):
 
 
 def _number(cell):
+    """nan for no number."""
     try:
         return float(cell)
     except ValueError:
-        return None
+        return math.nan
 
 
 def readGeoJson(name: str, tolerance: float | None) -> Found:

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy
 
 from yadefrag.io.readers import Found, needed, refuseFile
-from yadefrag.io.readers.svg_shapes import Clip, Item, appended
+from yadefrag.io.readers.svg_shapes import Item, appended
 from yadefrag.io.readers.svg_style import (INITIAL, Sheets, fraction, hrefOf, isPattern, isSeen, isWhite, tagOf, urlOf)
 
 _PACKAGE = 'python3-svgelements'
@@ -51,7 +51,7 @@ class _Place:
     style: dict
     matrix: numpy.ndarray  # (3, 3), to the units of the root's viewBox
     view: tuple            # width and height, for percentages
-    clips: tuple = ()      # of Clip
+    clips: tuple = ()      # as those of an Item
     uses: tuple = ()       # elements that refer to each other
     isClip: bool = False   # within a clipPath, where paint has no effect
 
@@ -167,7 +167,7 @@ class _Walk:
         matrix, clips = place.matrix @ _shift(x, y), place.clips
         if style['overflow'] in ('hidden', 'scroll'):
             edge = self.svg.Path(self.svg.Rect(0, 0, width, height))
-            clips += (Clip((Item(edge, matrix, True, False, 'nonzero'),)),)
+            clips += ((Item(edge, matrix, True, False, 'nonzero'),),)
         if box:
             (across, right), (down, low) = _ratios(box, width, height, element.get('preserveAspectRatio', ''))
             matrix = matrix @ _shift(right, low) @ numpy.diag([across, down, 1]) @ _shift(-box[0], -box[1])
@@ -200,7 +200,7 @@ class _Walk:
                                isWhite(style['fill']) and not isStroked))
 
     def _clips(self, style, place, path):
-        """(Clip,) of the property clip-path, or ()."""
+        """What the property clip-path adds to the clips."""
         if style['clip-path'] == 'none':
             return ()
         element = self.ids.get(urlOf(style['clip-path']))
@@ -226,7 +226,7 @@ class _Walk:
             elif tagOf(child) == 'text':
                 hidden['texts of clip paths'] += 1
         items, self.found, self.leftOut = self.found, whole, hidden
-        return (Clip(tuple(items)), *self._clips(own, inner, None))
+        return (tuple(items), *self._clips(own, inner, None))
 
     def _path(self, tag, style, view):
         """svgelements' path of a shape, before its transform; None if it has no extent."""

@@ -19,14 +19,8 @@ class Item:
     isFilled: bool
     isStroked: bool
     rule: str              # 'nonzero' or 'evenodd'
-    clips: tuple = ()      # of Clip
+    clips: tuple = ()      # of tuples of items: only what is inside one of each is shown
     isWhite: bool = False
-
-
-@dataclasses.dataclass(frozen=True)
-class Clip:
-    """Shows only what is inside one of the items."""
-    items: tuple
 
 
 def appended(found: Found, items: Iterable[Item], page: Sequence[float] | None, tolerance: float | None,
@@ -100,7 +94,7 @@ def _clipped(found, item, tolerance, name):
     geometry = needed('shapely.geometry', 'python3-shapely', name)
     operations = needed('shapely.ops', 'python3-shapely', name)
     for clip in item.clips:
-        parts = [_solid(geometry, operations, region, one.rule) for one in clip.items
+        parts = [_solid(geometry, operations, region, one.rule) for one in clip
                  for region in _painted(one, tolerance, name).regions]
         window = operations.unary_union(parts)
         inside = Found()

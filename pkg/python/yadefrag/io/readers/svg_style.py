@@ -15,14 +15,8 @@ _SERVERS = ('linearGradient', 'radialGradient', 'pattern')
 _HREFS = ('href', '{http://www.w3.org/1999/xlink}href')
 _WHITE = 0xffffffff
 _NAME = r'[\w\u0080-\uffff-]+'
-_PART = re.compile(r'(?P<type>%s|\*)|#(?P<id>%s)|\.(?P<class>%s)|:(?P<first>first-child)(?![\w(-])'
-                   r'|\[\s*(?P<key>%s)\s*(?:(?P<how>[~|^$*]?=)\s*["\']?(?P<value>[^"\'\]]*)["\']?\s*)?\]'
-                   % ((_NAME,) * 4))
-_MATCHES = {None: lambda has, value: True, '=': lambda has, value: has == value,
-            '~=': lambda has, value: value in has.split(), '|=': lambda has, value: has == value
-            or has.startswith(value + '-'), '^=': lambda has, value: bool(value) and has.startswith(value),
-            '$=': lambda has, value: bool(value) and has.endswith(value), '*=': lambda has, value: bool(value)
-            and value in has}
+# A type, or *, with ids and classes.
+_COMPOUND = re.compile(r'(%s|\*)?((?:[.#]%s)*)$' % (_NAME, _NAME))
 
 
 def tagOf(element: Element) -> str:
@@ -104,66 +98,40 @@ class Sheets:
         return INITIAL if parent is None else self.computed(parent, self.around(parent))
 
     def _matches(self, element, steps):
-        """True if the element matches the last of the steps (combinator, parts)."""
-        (combinator, parts), *before = steps[::-1]
-        if element is None or not all(self._has(element, part) for part in parts):
+        """True if the element matches the last of the steps, and elements around it those before."""
+        *before, (isChild, kind, ids, classes) = steps
+        own = element.get('class', '').split()
+        if kind not in ('', '*', tagOf(element)) or any(element.get('id') != one for one in ids) \
+                or not all(one in own for one in classes):
             return False
-        before = before[::-1]
-        if combinator == '':
-            return True
-        if combinator in '+~':
-            siblings = list(self.parents.get(element, ()))
-            earlier = siblings[:siblings.index(element)] if siblings else []
-            return any(self._matches(one, before) for one in earlier[-1 if combinator == '+' else 0:])
         parent = self.parents.get(element)
-        while parent is not None:
+        while before and parent is not None:
             if self._matches(parent, before):
                 return True
-            parent = None if combinator == '>' else self.parents.get(parent)
-        return False
-
-    def _has(self, element, part):
-        if part['type']:
-            return part['type'] in ('*', tagOf(element))
-        if part['id']:
-            return element.get('id') == part['id']
-        if part['class']:
-            return part['class'] in element.get('class', '').split()
-        if part['first']:
-            parent = self.parents.get(element)
-            return parent is None or parent[0] is element
-        has = element.get(part['key'])
-        return has is not None and _MATCHES[part['how']](has, part['value'] or '')
+            parent = None if isChild else self.parents.get(parent)
+        return not before
 
 
 def _steps(selector):
-    """[(combinator with what is before, parts)], or None for other selectors."""
-    steps = []
-    for word in re.findall(r'[>+~]|(?:\[[^\]]*\]|[^\s>+~\[])+', selector):
-        if word in '>+~':
-            if not steps or isinstance(steps[-1], str):
-                return None
-            steps.append(word)
+    """[(is a child of what is before, type, ids, classes)]; None for other selectors than those of types, ids and
+    classes within each other."""
+    steps, isChild = [], False
+    for word in selector.replace('>', ' > ').split():
+        if word == '>':
+            isChild = True
             continue
-        combinator = ''
-        if steps:
-            combinator = steps.pop() if isinstance(steps[-1], str) else ' '
-        parts, place = [], 0
-        while place < len(word):
-            part = _PART.match(word, place)
-            if part is None or part['type'] and place:
-                return None
-            parts.append(part.groupdict())
-            place = part.end()
-        steps.append((combinator, parts))
-    return steps if steps and not isinstance(steps[-1], str) else None
+        found = _COMPOUND.match(word)
+        if not found:
+            return None
+        ids, classes = ([name[1:] for name in re.findall(r'[.#][^.#]+', found[2]) if name[0] == mark] for mark in '#.')
+        steps.append((isChild, found[1] or '', ids, classes))
+        isChild = False
+    return steps if steps and not isChild else None
 
 
 def _specificity(steps):
-    parts = [part for _, those in steps for part in those]
-    types = sum(bool(part['type']) and part['type'] != '*' for part in parts)
-    ids = sum(bool(part['id']) for part in parts)
-    return ids, sum(not part['type'] and not part['id'] for part in parts), types
+    return (sum(len(ids) for *_, ids, _ in steps), sum(len(classes) for *_, classes in steps),
+            sum(kind not in ('', '*') for _, kind, *_ in steps))
 
 
 def urlOf(value: str) -> str | None:
