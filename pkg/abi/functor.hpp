@@ -227,4 +227,10 @@ class Law2_ScGeom_MindlinPhys_Mindlin : public LawFunctor {
   alignas(8) unsigned char energies_[96];
 };
 
+class Law2_ScGeom_ViscElPhys_Basic : public LawFunctor {
+ public:
+  Law2_ScGeom_ViscElPhys_Basic() = delete;
+  ~Law2_ScGeom_ViscElPhys_Basic() override;
+};
+
 }  // namespace yade

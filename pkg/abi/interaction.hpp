@@ -127,6 +127,20 @@ class MindlinPhys : public RotStiffFrictPhys {
   ~MindlinPhys() override;
 };
 
+class ViscElPhys : public FrictPhys {
+ public:
+  Real R;
+  Real cn;
+  Real cs;
+  Real Fn;
+  Real Fv;
+  Real mR;
+  unsigned mRtype;
+
+  ViscElPhys();
+  ~ViscElPhys() override;
+};
+
 class Interaction : public Serializable {
  public:
   bool isActive;

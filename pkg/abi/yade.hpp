@@ -55,6 +55,7 @@
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/dem/ViscoelasticPM.hpp>
 #ifdef YADE_OPENGL
 #include <pkg/common/OpenGLRenderer.hpp>
 #endif

@@ -6,10 +6,11 @@
 
 #include "loop/cundall_strack.hpp"
 #include "loop/hertz_mindlin.hpp"
+#include "loop/viscoelastic.hpp"
 
 namespace yadefrag {
 
-using KnownLaws = std::tuple<CundallStrack, HertzMindlin>;
+using KnownLaws = std::tuple<CundallStrack, HertzMindlin, Viscoelastic>;
 
 /// The functor of exactly this class, whose formulas are known; a derived one has others.
 template <class Known, class Functor>

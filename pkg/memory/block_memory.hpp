@@ -156,8 +156,8 @@ class BodyMemory {
   ScatterWatch states_;
 };
 
-/// Moves geometry and physics of each contact of YADE's classes ScGeom and `Phys`, FrictPhys or
-/// MindlinPhys, together, in the order of the scene's contacts, when they are scattered. Objects
+/// Moves geometry and physics of each contact of YADE's classes ScGeom and `Phys`, that of a law of
+/// the loop, together, in the order of the scene's contacts, when they are scattered. Objects
 /// that anything else than the contact refers to (a variable in Python) stay where they are.
 class ContactMemory {
  public:

@@ -1,4 +1,3 @@
-#include <concepts>
 #include <cstring>
 
 #include "loop/exposed.hpp"
@@ -18,7 +17,7 @@ void copyGeometry(const yade::ScGeom& from, yade::ScGeom& to) {
   to.shearInc = from.shearInc;
 }
 
-// From the stiffness on FrictPhys and MindlinPhys consist of numbers.
+// From the stiffness on all these classes consist of numbers.
 template <class Phys>
 void copyPhysics(const Phys& from, Phys& to) {
   const auto begin = reinterpret_cast<const char*>(&from.kn) - reinterpret_cast<const char*>(&from);
@@ -33,9 +32,14 @@ constexpr std::size_t kContactBytes = Block::wholeLines(sizeof(yade::ScGeom) + s
 // A YADE that its user built may have more members, by its options: nothing is moved there. With
 // all that are known: dissipation (2026.1), PARTIALSAT.
 template <class Phys>
+constexpr std::size_t kMostBytes = 112;
+template <>
+constexpr std::size_t kMostBytes<yade::MindlinPhys> = 424;
+template <>
+constexpr std::size_t kMostBytes<yade::ViscElPhys> = 168;
+template <class Phys>
 constexpr bool kAreAllMembersKnown = sizeof(yade::ScGeom) == 192 &&
-                                     sizeof(Phys) <=
-                                         (std::derived_from<Phys, yade::MindlinPhys> ? 424 : 112);
+                                     sizeof(Phys) <= kMostBytes<Phys>;
 
 template <class Phys>
 void moveTogether(yade::Scene& scene) {
@@ -63,5 +67,6 @@ void ContactMemory::endStep(yade::Scene& scene) {
 
 template void ContactMemory::endStep<yade::FrictPhys>(yade::Scene& scene);
 template void ContactMemory::endStep<yade::MindlinPhys>(yade::Scene& scene);
+template void ContactMemory::endStep<yade::ViscElPhys>(yade::Scene& scene);
 
 }  // namespace yadefrag
