@@ -49,6 +49,7 @@
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
+#include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 #include <pkg/dem/ElasticContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/HertzMindlin.hpp>

@@ -11,6 +11,7 @@ namespace yadefrag {
 class Viscoelastic {
  public:
   using Functor = yade::Law2_ScGeom_ViscElPhys_Basic;
+  using Geometry = yade::Ig2_Sphere_Sphere_ScGeom;
   using Phys = yade::ViscElPhys;
   using Force = ContactForce;
   static constexpr std::string_view kProperties = "N4yade34Ip2_ViscElMat_ViscElMat_ViscElPhysE";

@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 import pytest
+import yade.config
 import yade.wrapper as w
 import yadefrag
 from yade import utils
@@ -81,7 +82,9 @@ def test_otherLaws():
         lambda: [[make() for make in makers] for makers in kCohesive],
         material=w.CohFrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4, isCohesive=True,
                                normalCohesion=1e5, shearCohesion=1e5, momentRotationLaw=True))
-    assert cohesive.fastForces == 0
+    isKnown = yade.config.version < '2025'
+    assert cohesive.fastForces == (O.interactions.countReal() if isKnown else 0)
+    assert isKnown or 'since the loop knows this law of YADE before 2025.2 only' in cohesive.report()
     linear = requireSame(lambda: [frictional()[0], [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
                                   [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]])
     assert linear.fastForces == 0 and linear.fastGeometries > 20
