@@ -188,10 +188,34 @@ class Ig2_Sphere_Sphere_ScGeom : public IGeomFunctor {
   ~Ig2_Sphere_Sphere_ScGeom() override;
 };
 
+class Ig2_Sphere_Sphere_ScGeom6D : public Ig2_Sphere_Sphere_ScGeom {
+ public:
+  bool updateRotations;
+  bool creep;
+  Ig2_Sphere_Sphere_ScGeom6D() = delete;
+  ~Ig2_Sphere_Sphere_ScGeom6D() override;
+};
+
 class IPhysFunctor : public Functor, public PhysCalls {
  public:
   IPhysFunctor() = delete;
   ~IPhysFunctor() override;
+};
+
+class Ip2_CohFrictMat_CohFrictMat_CohFrictPhys : public IPhysFunctor {
+ public:
+  int cohesionDefinitionIteration;
+  bool setCohesionNow;
+  bool setCohesionOnNewContacts;
+  Ip2_CohFrictMat_CohFrictMat_CohFrictPhys() = delete;
+  ~Ip2_CohFrictMat_CohFrictMat_CohFrictPhys() override;
+
+ private:
+#if YADEFRAG_YADE >= 202502
+  alignas(8) unsigned char choices_[80];
+#else
+  alignas(8) unsigned char choices_[48];
+#endif
 };
 
 class LawFunctor : public Functor, public LawCalls {
@@ -225,6 +249,36 @@ class Law2_ScGeom_MindlinPhys_Mindlin : public LawFunctor {
 
  private:
   alignas(8) unsigned char energies_[96];
+};
+
+class Law2_ScGeom6D_CohFrictPhys_CohesionMoment : public LawFunctor {
+  alignas(8) unsigned char plasticDissipation_[24];
+
+ public:
+  bool neverErase;
+  bool always_use_moment_law;
+  bool shear_creep;
+  bool twist_creep;
+  bool traceEnergy;
+  bool useIncrementalForm;
+  int shearDissipIx;
+#if YADEFRAG_YADE >= 202502
+  int normalDissipIx;
+#endif
+  int bendingDissipIx;
+  int twistDissipIx;
+#if YADEFRAG_YADE >= 202502
+  bool consistencyCheck;
+#endif
+  Real creep_viscosity;
+  Law2_ScGeom6D_CohFrictPhys_CohesionMoment() = delete;
+  ~Law2_ScGeom6D_CohFrictPhys_CohesionMoment() override;
+};
+
+class Law2_ScGeom_ViscElPhys_Basic : public LawFunctor {
+ public:
+  Law2_ScGeom_ViscElPhys_Basic() = delete;
+  ~Law2_ScGeom_ViscElPhys_Basic() override;
 };
 
 }  // namespace yade

@@ -49,6 +49,18 @@ class ScGeom : public GenericSpheresContact {
   friend struct LayoutProbe;
 };
 
+class ScGeom6D : public ScGeom {
+ public:
+  Quaternionr initialOrientation1;
+  Quaternionr initialOrientation2;
+  Quaternionr twistCreep;
+  Real twist;
+  Vector3r bending;
+
+  ScGeom6D();
+  ~ScGeom6D() override;
+};
+
 class IPhys : public Serializable, public Indexable {
  public:
   IPhys() = delete;
@@ -125,6 +137,45 @@ class MindlinPhys : public RotStiffFrictPhys {
 
   MindlinPhys();
   ~MindlinPhys() override;
+};
+
+class CohFrictPhys : public RotStiffFrictPhys {
+ public:
+  bool cohesionDisablesFriction;
+  bool cohesionBroken;
+  bool fragile;
+  Real maxRollPl;
+  Real maxTwistPl;
+  Real normalAdhesion;
+  Real shearAdhesion;
+#if YADEFRAG_YADE >= 202502
+  Real rollingAdhesion;
+  Real twistingAdhesion;
+#endif
+  Real unp;
+  Real unpMax;
+  bool momentRotationLaw;
+  bool initCohesion;
+  Real creep_viscosity;
+  Vector3r moment_twist;
+  Vector3r moment_bending;
+
+  CohFrictPhys();
+  ~CohFrictPhys() override;
+};
+
+class ViscElPhys : public FrictPhys {
+ public:
+  Real R;
+  Real cn;
+  Real cs;
+  Real Fn;
+  Real Fv;
+  Real mR;
+  unsigned mRtype;
+
+  ViscElPhys();
+  ~ViscElPhys() override;
 };
 
 class Interaction : public Serializable {

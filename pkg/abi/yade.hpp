@@ -49,12 +49,14 @@
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
+#include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 #include <pkg/dem/ElasticContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/HertzMindlin.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/dem/ViscoelasticPM.hpp>
 #ifdef YADE_OPENGL
 #include <pkg/common/OpenGLRenderer.hpp>
 #endif

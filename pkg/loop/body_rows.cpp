@@ -55,7 +55,7 @@ bool BodyRows::areHere(const yade::Scene& scene, const yade::Interaction& contac
                  flagsOf(scene, bodyAt(scene.bodies->body, contact.id2)));
 }
 
-void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, Use use, bool areMassesUsed,
+void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, Use use, const More& more,
                      int threads) {
   // YADE's functions make the arrays long enough.
   numBodies_ = scene.bodies->body.size();
@@ -66,7 +66,7 @@ void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, Use use, bool 
   }
   isInPlace_ = use == Use::kNone || numContacts < kContactsPerBody * numBodies_;
   areSumsUsed_ = !isInPlace_ && use == Use::kMotionAndSums;
-  areMassesUsed_ = areMassesUsed;
+  more_ = more;
   if (!isInPlace_) return fill(scene, numContacts, threads);
   forces_ = forcesOf(scene).data();
   torques_ = torquesOf(scene).data();
@@ -79,7 +79,8 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
         contacts_.clear();
   }
   rowOf_.resize(numBodies_, -1);
-  masses_.resize(areMassesUsed_ ? rows_.size() : 0);
+  masses_.resize(more_.masses ? rows_.size() : 0);
+  orientations_.resize(more_.orientations ? rows_.size() : 0);
   pairs_.resize(numContacts), contacts_.resize(numContacts);
   // In the order of ids, which often is that of their memory.
   forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
@@ -105,7 +106,7 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
   yadefrag::request(body->state.get(), offsetof(State, se3),
                     offsetof(State, angVel) + sizeof(State::angVel));
   yadefrag::request(body->shape.get(), offsetof(yade::Sphere, radius), sizeof(yade::Sphere));
-  if (areMassesUsed_) requestLine(&body->state->blockedDOFs);
+  if (more_.masses) requestLine(&body->state->blockedDOFs);
   const double* const values = rows_[static_cast<std::size_t>(rowOf_[id + kAhead])].values;
   requestLine(values), requestLine(values + 8);
 }
@@ -118,7 +119,9 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
   const bool wasSphere = !std::isnan(rows_[row].radius());
   read(*body, rows_[row]);
   if (wasSphere && std::isnan(rows_[row].radius())) areOthers_ = true;
-  if (areMassesUsed_) masses_[row] = massOf(*body);
+  if (more_.masses) masses_[row] = massOf(*body);
+  if (more_.orientations)
+    storeFour(loadFour(body->state->se3.orientation.coeffs().data()), orientations_[row].data());
   if (!areSumsUsed_) return;
   double *const force = forcesOf(scene)[id].data(), *const torque = torquesOf(scene)[id].data();
   rows_[row].setSums(loadThree(force), loadThree(torque));
@@ -153,7 +156,8 @@ std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id, std::siz
   if (rowOf_[index] < 0) {
     rowOf_[index] = static_cast<int>(rows_.size());
     rows_.emplace_back(), flags_.emplace_back();
-    if (areMassesUsed_) masses_.emplace_back();
+    if (more_.masses) masses_.emplace_back();
+    if (more_.orientations) orientations_.emplace_back();
     firstPlaces_.push_back(static_cast<std::uint32_t>(place));
     fillRow(scene, index, rows_.size() - 1);
   }

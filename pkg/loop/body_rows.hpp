@@ -9,6 +9,7 @@
 // each contact is added in place. Where a body has few contacts, both cost more than they
 // save: bodies are read, and forces added, in place.
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <utility>
@@ -61,8 +62,12 @@ class BodyRows {
  public:
   /// What a step needs of the rows.
   enum class Use : std::uint8_t { kNone, kMotion, kMotionAndSums };
+  /// What laws need besides.
+  struct More {
+    bool masses = false, orientations = false;
+  };
   /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
-  void begin(yade::Scene& scene, std::size_t numContacts, Use use, bool areMassesUsed, int threads);
+  void begin(yade::Scene& scene, std::size_t numContacts, Use use, const More& more, int threads);
   /// Before `begin`: all rows are made anew in this step.
   void forget() { areValid_ = false; }
   /// True: both bodies of a contact exist, and one is of this process.
@@ -87,6 +92,10 @@ class BodyRows {
   [[nodiscard]] const BodyRow& operator[](std::size_t row) const { return rows_[row]; }
   /// Of a row, in a step that uses masses.
   [[nodiscard]] const BodyMass& mass(std::size_t row) const { return masses_[row]; }
+  /// In a step that uses orientations.
+  [[gnu::always_inline]] [[nodiscard]] Orientations orientations(const PairRows& pair) const {
+    return {loadFour(orientations_[pair.row1].data()), loadFour(orientations_[pair.row2].data())};
+  }
   /// True: both bodies exist, and one is of this process.
   [[nodiscard]] bool areHere(const PairRows& pair) const {
     return areHere(flags_[pair.row1], flags_[pair.row2]);
@@ -106,8 +115,11 @@ class BodyRows {
   /// Requests what a contact needs, before its turn.
   [[gnu::always_inline]] void request(const PairRows& pair) const {
     // There may be no rows yet.
-    if (areMassesUsed_) {
+    if (more_.masses) {
       requestLine(masses_.data() + pair.row1), requestLine(masses_.data() + pair.row2);
+    }
+    if (more_.orientations) {
+      requestLine(orientations_.data() + pair.row1), requestLine(orientations_.data() + pair.row2);
     }
     const BodyRow *const one = rows_.data() + pair.row1, *const two = rows_.data() + pair.row2;
     requestLine(one), requestLine(one->values + 8);
@@ -150,14 +162,16 @@ class BodyRows {
 
   bool isInPlace_ = true;
   bool areSumsUsed_ = false;
-  bool areMassesUsed_ = false;
+  More more_;
   bool areValid_ = false;
   std::size_t numNew_ = 0;               // contacts since all rows were made
   std::atomic<bool> areOthers_ = false;  // a body whose shape was a sphere has another one
   std::size_t numBodies_ = 0;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<BodyRow> rows_;
-  std::vector<BodyMass> masses_;            // by row; empty where they are not used
+  // By row; empty where they are not used.
+  std::vector<BodyMass> masses_;
+  std::vector<std::array<double, 4>> orientations_;
   std::vector<unsigned char> flags_;        // by row
   std::vector<std::uint32_t> firstPlaces_;  // by row: no contact of it is before
   std::vector<PairRows> pairs_;             // by place of the contact

@@ -5,6 +5,8 @@
 #include <concepts>
 #include <cstddef>
 #include <string_view>
+#include <type_traits>
+#include <typeinfo>
 #include <utility>
 
 #include "loop/sphere_contact_kernels.hpp"
@@ -36,6 +38,26 @@ inline double reducedMass(const std::pair<BodyMass, BodyMass>& bodies) {
   return one.mass * two.mass / (one.mass + two.mass);
 }
 
+/// The functor of exactly this class, whose formulas are known; a derived one has others.
+template <class Known, class Functor>
+const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
+  for (const auto& functor : functors) {
+    const Functor& one = *functor;
+    if (typeid(one) == typeid(Known)) return static_cast<const Known*>(&one);
+  }
+  return nullptr;
+}
+
+/// By the name of its type: getClassName() would allocate memory in each step.
+inline const yade::IPhysFunctor* functorOf(
+    const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors, std::string_view type) {
+  for (const auto& functor : functors) {
+    const yade::IPhysFunctor& one = *functor;
+    if (typeid(one).name() == type) return &one;
+  }
+  return nullptr;
+}
+
 using AnyMasses = std::pair<BodyMass, BodyMass> (*)();
 
 /// The formulas of one of YADE's laws, in the order of its operations, so that every bit is the
@@ -46,6 +68,8 @@ concept ContactLaw = requires(const Law& law, const typename Law::Functor& funct
                               typename Law::Phys& phys, typename Law::Force& force) {
   requires std::derived_from<typename Law::Functor, yade::LawFunctor>;
   requires std::derived_from<typename Law::Phys, yade::FrictPhys>;
+  // Functor of two spheres whose geometry the loop computes.
+  requires std::derived_from<typename Law::Geometry, yade::Ig2_Sphere_Sphere_ScGeom>;
   // What is added to the two bodies; it may have a `moment` (N m), which is then added to the
   // second body, and its opposite to the first one, if `hasMoment`.
   requires std::derived_from<typename Law::Force, ContactForce>;
@@ -59,6 +83,26 @@ concept ContactLaw = requires(const Law& law, const typename Law::Functor& funct
   Law(functor, scene);
   // False: the contact has ended.
   { law.apply(view, phys, force) } -> std::same_as<bool>;
+};
+
+/// Laws whose geometry has rotations.
+template <class Law>
+constexpr bool kUsesRotations =
+    std::same_as<typename Law::Geometry, yade::Ig2_Sphere_Sphere_ScGeom6D>;
+
+/// The class of geometry that a law's functor makes.
+template <class Law>
+using ContactOf = std::conditional_t<kUsesRotations<Law>, yade::ScGeom6D, yade::ScGeom>;
+
+/// Laws whose functor for properties may change those that a contact has: then, by
+/// `changesProperties`, of the functor or of a contact, it is called; and whose functor may have to
+/// be called for some contacts only, for which `reasonForYade` of the physics is not null.
+template <class Law>
+constexpr bool kHasExceptions = requires(const Law& law, const typename Law::Phys& phys,
+                                         const yade::IPhysFunctor& properties) {
+  { Law::changesProperties(properties) } -> std::same_as<bool>;
+  { Law::changesProperties(phys) } -> std::same_as<bool>;
+  { law.reasonForYade(phys) } -> std::same_as<const char*>;
 };
 
 }  // namespace yadefrag

@@ -11,6 +11,7 @@ namespace yadefrag {
 class CundallStrack {
  public:
   using Functor = yade::Law2_ScGeom_FrictPhys_CundallStrack;
+  using Geometry = yade::Ig2_Sphere_Sphere_ScGeom;
   using Phys = yade::FrictPhys;
   using Force = ContactForce;
   static constexpr std::string_view kProperties = "N4yade31Ip2_FrictMat_FrictMat_FrictPhysE";

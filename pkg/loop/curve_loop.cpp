@@ -55,12 +55,14 @@ void ContactLoop::run(const PairStep<Law>& step, std::size_t size) {
               !step.computesGeometry() ? kNone
               : step.computesForces()  ? kMotionAndSums
                                        : kMotion,
-              Law::kUsesMasses && step.computesForces(), threads);
+              {.masses = Law::kUsesMasses && step.computesForces(),
+               .orientations = kUsesRotations<Law> && step.computesForces()},
+              threads);
   if (!rows_.isInPlace()) rows_.findPairs(*scene, threads);
   evaluate(step, size);
   addLater();
   rows_.giveForces(*scene, threads);
-  if (fastForces > 0) memory_.endStep<typename Law::Phys>(*scene);
+  if (fastForces > 0) memory_.endStep<ContactOf<Law>, typename Law::Phys>(*scene);
 }
 
 template <class Law>
@@ -175,7 +177,7 @@ template <class Law>
     contact->reset();
     return false;
   }
-  if (!pair.isKnown(*contact)) {
+  if (!pair.isKnown(*contact) || evaluation.step.isException(*pair.phys)) {
     if (pair.isInOrder(*contact) &&
         evaluation.step.isFarApart(*contact, rows_[pair.row1], rows_[pair.row2])) {
       return false;
@@ -187,8 +189,9 @@ template <class Law>
   const auto masses = [&]() __attribute__((always_inline)) {
     return std::pair(rows_.mass(pair.row1), rows_.mass(pair.row2));
   };
+  const auto turns = [&]() __attribute__((always_inline)) { return rows_.orientations(pair); };
   return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],
-                                       rows_[pair.row2], masses, evaluation.force);
+                                       rows_[pair.row2], masses, turns, evaluation.force);
 }
 
 template <class Law>

@@ -101,12 +101,14 @@ class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::Interacti
   static constexpr const char* kDoc =
       "InteractionLoop for many contacts of spheres: CurveLoop([Ig2...], [Ip2...], [Law2...]), "
       "with the same arguments, functors, attributes and results. Contacts of "
-      "Ig2_Sphere_Sphere_ScGeom, of Law2_ScGeom_FrictPhys_CundallStrack and of "
-      "Law2_ScGeom_MindlinPhys_Mindlin (while no energies are traced) are computed by the loop "
-      "itself with the same formulas and the same bits; all others by YADE's functors: report() "
-      "says which. Forces are added in the order of O.interactions: if all laws are "
-      "of this kind, every bit is the same for any number of threads. Raises RuntimeError if no "
-      "functor accepts the materials or the contact, where InteractionLoop ends the process.";
+      "Ig2_Sphere_Sphere_ScGeom, of Law2_ScGeom_FrictPhys_CundallStrack, of "
+      "Law2_ScGeom_MindlinPhys_Mindlin (while no energies are traced), of "
+      "Law2_ScGeom_ViscElPhys_Basic and, with YADE before 2025.2, of "
+      "Law2_ScGeom6D_CohFrictPhys_CohesionMoment are computed by the loop itself with the same "
+      "formulas and the same bits; all others by YADE's functors: report() says which. Forces are "
+      "added in the order of O.interactions: if all laws are of this kind, every bit is the same "
+      "for any number of threads. Raises RuntimeError if no functor accepts the materials or the "
+      "contact, where InteractionLoop ends the process.";
   static void pyExtra(LoopClass& loop);
 };
 

@@ -45,6 +45,7 @@ struct HertzDamping {
 class HertzMindlin {
  public:
   using Functor = yade::Law2_ScGeom_MindlinPhys_Mindlin;
+  using Geometry = yade::Ig2_Sphere_Sphere_ScGeom;
   using Phys = yade::MindlinPhys;
   struct Force : ContactForce {
     FourLanes moment;

@@ -2,34 +2,15 @@
 // The laws whose forces the loop computes, and the choice of one for a step.
 
 #include <tuple>
-#include <typeinfo>
 
+#include "loop/cohesive.hpp"
 #include "loop/cundall_strack.hpp"
 #include "loop/hertz_mindlin.hpp"
+#include "loop/viscoelastic.hpp"
 
 namespace yadefrag {
 
-using KnownLaws = std::tuple<CundallStrack, HertzMindlin>;
-
-/// The functor of exactly this class, whose formulas are known; a derived one has others.
-template <class Known, class Functor>
-const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
-  for (const auto& functor : functors) {
-    const Functor& one = *functor;
-    if (typeid(one) == typeid(Known)) return static_cast<const Known*>(&one);
-  }
-  return nullptr;
-}
-
-/// By the name of its type: getClassName() would allocate memory in each step.
-inline const yade::IPhysFunctor* functorOf(
-    const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors, std::string_view type) {
-  for (const auto& functor : functors) {
-    const yade::IPhysFunctor& one = *functor;
-    if (typeid(one).name() == type) return &one;
-  }
-  return nullptr;
-}
+using KnownLaws = std::tuple<CundallStrack, HertzMindlin, Viscoelastic, Cohesive>;
 
 /// Calls `visit.operator()<Law>()` for each known law.
 template <class Visit>

@@ -18,10 +18,14 @@ std::string bodiesOf(const yade::Interaction& contact) {
 }  // namespace
 
 PairFunctors::PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene,
-                           const yade::LawFunctor* law, std::string_view properties)
-    : loop_(loop), scene_(scene), law_(law) {
-  spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
-  properties_ = functorOf(loop.physDispatcher->functors, properties);
+                           const yade::Ig2_Sphere_Sphere_ScGeom* spheres,
+                           const yade::IPhysFunctor* properties, const yade::LawFunctor* law)
+    : loop_(loop),
+      scene_(scene),
+      spheres_(spheres),
+      properties_(properties),
+      law_(law),
+      hasRotations_(spheres && typeid(*spheres) == typeid(yade::Ig2_Sphere_Sphere_ScGeom6D)) {
   for (const auto& callback : loop.callbacks) {
     callback->scene = &scene;
     if (const auto function = callback->stepInit()) {
@@ -35,7 +39,7 @@ PairFunctors::PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene,
 
 // YADE's InteractionLoop::action, for one interaction.
 bool PairFunctors::update(const Contact& contact, const BodyRow& one, const BodyRow& two,
-                          long& fastGeometries) const {
+                          bool changesProperties, long& fastGeometries) const {
   if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return false;
   const auto id1 = contact->id1;
   // A clump has no sphere of its own.
@@ -52,7 +56,7 @@ bool PairFunctors::update(const Contact& contact, const BodyRow& one, const Body
     if (wasReal) contact->reset();
     return false;
   }
-  updateProperties(contact, wasReal);
+  updateProperties(contact, wasReal, changesProperties);
   return true;
 }
 
@@ -102,7 +106,7 @@ bool PairFunctors::updateGeometryOf(const Contact& contact, const BodyRow& one, 
                                     long& fastGeometries) const {
   if (isKnownPair(*contact)) {
     if (!contact->isReal() && areApart(*contact, one, two)) return false;
-    if (contact->geom) {
+    if (contact->geom && !hasRotations_) {
       ++fastGeometries;
       auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
       updateGeometry(geom, one, two, shiftOf(*contact));
@@ -116,7 +120,8 @@ bool PairFunctors::updateGeometryOf(const Contact& contact, const BodyRow& one, 
                                         false, contact);
 }
 
-void PairFunctors::updateProperties(const Contact& contact, bool wasReal) const {
+void PairFunctors::updateProperties(const Contact& contact, bool wasReal,
+                                    bool changesProperties) const {
   const yade::Body &body1 = bodyOf(contact->id1), &body2 = bodyOf(contact->id2);
   auto& functor = contact->functorCache.phys;
   if (!functor) {
@@ -135,7 +140,7 @@ void PairFunctors::updateProperties(const Contact& contact, bool wasReal) const 
     }
   }
   // The known functor does nothing for a contact that has its properties.
-  if (functor.get() != properties_ || !contact->phys) {
+  if (functor.get() != properties_ || !contact->phys || changesProperties) {
     functor->go(body1.material, body2.material, contact);
   }
   if (!wasReal) contact->iterMadeReal = scene_.iter;
@@ -152,13 +157,8 @@ void PairFunctors::chooseLaw(yade::Interaction& contact) const {
   }
 }
 
-// A contact that has ended is reset.
-bool PairFunctors::isLeftToYade(yade::Interaction& contact) const {
-  if (!contact.functorCache.constLaw) chooseLaw(contact);
-  auto& law = *contact.functorCache.constLaw;
-  if (law_ && &law == law_) return false;
-  if (!law.go(contact.geom, contact.phys, &contact)) contact.reset();
-  return true;
+void PairFunctors::callLaw(yade::Interaction& contact) {
+  if (!contact.functorCache.constLaw->go(contact.geom, contact.phys, &contact)) contact.reset();
 }
 
 }  // namespace yadefrag

@@ -13,10 +13,11 @@ namespace yadefrag {
 /// What is the same for all contacts of a step, whatever the law; used by all threads at once.
 class PairFunctors {
  public:
-  /// `law`: the functor whose work is done here, or null; `properties`: the type of that for the
-  /// properties.
-  PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene, const yade::LawFunctor* law,
-               std::string_view properties);
+  /// The functors whose work is done here, or null; `properties` does nothing for a contact that
+  /// has its properties.
+  PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene,
+               const yade::Ig2_Sphere_Sphere_ScGeom* spheres, const yade::IPhysFunctor* properties,
+               const yade::LawFunctor* law);
 
   using Contact = yade::shared_ptr<yade::Interaction>;
   /// What determines which contacts the loop computes.
@@ -28,10 +29,6 @@ class PairFunctors {
   [[nodiscard]] bool computesGeometry() const { return spheres_ != nullptr; }
   /// False: YADE's laws compute all forces.
   [[nodiscard]] bool computesForces() const { return law_ != nullptr; }
-  /// True: YADE's law may compute the force of this contact.
-  [[nodiscard]] bool isForYade(const yade::Interaction& contact) const {
-    return contact.functorCache.constLaw.get() != law_;
-  }
   /// False: the loop uses no motion of bodies.
   [[nodiscard]] bool usesMotion() const { return spheres_ != nullptr || law_ != nullptr; }
   /// True: a contact whose geometry, physics and law are those that the loop computes.
@@ -55,9 +52,18 @@ class PairFunctors {
   /// order in it may be swapped. False: it has no force. Counts geometries that YADE's functors did
   /// not compute.
   bool update(const Contact& contact, const BodyRow& one, const BodyRow& two,
-              long& fastGeometries) const;
-  /// False: the known law; otherwise YADE's law has computed the contact.
-  bool isLeftToYade(yade::Interaction& contact) const;
+              bool changesProperties, long& fastGeometries) const;
+  /// True: the known law.
+  [[nodiscard]] bool isOfLaw(const yade::Interaction& contact) const {
+    return law_ && contact.functorCache.constLaw.get() == law_;
+  }
+  /// True: it has properties, of the known functor.
+  [[nodiscard]] bool hasProperties(const yade::Interaction& contact) const {
+    return properties_ && contact.functorCache.phys.get() == properties_ && contact.phys;
+  }
+  void chooseLaw(yade::Interaction& contact) const;
+  /// YADE's law; a contact that has ended is reset.
+  static void callLaw(yade::Interaction& contact);
   void callBack(const Contact& contact) const;
   [[gnu::always_inline]] ContactGeometry updateGeometry(yade::ScGeom& geom, const BodyRow& one,
                                                         const BodyRow& two,
@@ -93,15 +99,15 @@ class PairFunctors {
   bool chooseGeometry(yade::Interaction& contact) const;
   bool updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
                         long& fastGeometries) const;
-  void updateProperties(const Contact& contact, bool wasReal) const;
-  void chooseLaw(yade::Interaction& contact) const;
+  void updateProperties(const Contact& contact, bool wasReal, bool changesProperties) const;
 
   yade::InteractionLoop& loop_;
   yade::Scene& scene_;
   // The functors whose work is done here; null if there is none.
-  const yade::Ig2_Sphere_Sphere_ScGeom* spheres_ = nullptr;
-  const yade::IPhysFunctor* properties_ = nullptr;
+  const yade::Ig2_Sphere_Sphere_ScGeom* spheres_;
+  const yade::IPhysFunctor* properties_;
   const yade::LawFunctor* law_;
+  bool hasRotations_;  // of its geometry: YADE's functor is called for one that is not known
   std::vector<std::pair<yade::IntrCallback*, yade::IntrCallback::FuncPtr>> callbacks_;
   bool removesUnseen_;
   bool isAllKnown_;
@@ -116,8 +122,22 @@ class PairStep : public PairFunctors {
 
   /// `functor`: of the law; null: YADE's laws compute all forces.
   PairStep(yade::InteractionLoop& loop, yade::Scene& scene, const typename Law::Functor* functor)
-      : PairFunctors(loop, scene, functor, Law::kProperties) {
+      : PairFunctors(loop, scene, exactly<typename Law::Geometry>(loop.geomDispatcher->functors),
+                     propertiesOf(loop), functor),
+        geometry_(exactly<typename Law::Geometry>(loop.geomDispatcher->functors)) {
     if (functor) lawOfStep_.emplace(*functor, scene);
+  }
+  /// True: YADE's law may compute the force of this contact.
+  [[nodiscard]] bool isForYade(const yade::Interaction& contact) const {
+    return !isOfLaw(contact) || !contact.phys || isException(*contact.phys);
+  }
+  /// True: a known contact for which YADE's functors must be called.
+  [[gnu::always_inline]] [[nodiscard]] bool isException(const yade::IPhys& phys) const {
+    if constexpr (kHasExceptions<Law>) {
+      const auto& known = static_cast<const Phys&>(phys);
+      return Law::changesProperties(known) || lawOfStep_->reasonForYade(known);
+    }
+    return false;
   }
 
   /// Evaluates one contact of the bodies `one` and `two`, which exist and whose order in it may be
@@ -126,10 +146,13 @@ class PairStep : public PairFunctors {
   [[gnu::noinline]] bool evaluate(const Contact& contact, const BodyRow& one, const BodyRow& two,
                                   long& fastGeometries, Force& force) const {
     const auto id1 = contact->id1;
-    if (!update(contact, one, two, fastGeometries)) return false;
+    if (!update(contact, one, two, changesProperties(*contact), fastGeometries)) return false;
     const bool isSwapped = contact->id1 != id1;
     bool isForce = false;
-    if (!isLeftToYade(*contact)) {
+    if (!contact->functorCache.constLaw) chooseLaw(*contact);
+    if (isForYade(*contact)) {
+      callLaw(*contact);
+    } else {
       const auto masses = [&] {
         return std::pair(BodyRows::massOf(bodyOf(contact->id1)),
                          BodyRows::massOf(bodyOf(contact->id2)));
@@ -141,18 +164,40 @@ class PairStep : public PairFunctors {
     callBack(contact);
     return isForce;
   }
-  /// Evaluates a known contact of bodies that exist, in its order, as `evaluate` does.
-  template <class Masses>
+  /// Evaluates a known contact of bodies that exist, in its order, as `evaluate` does. `turns()`
+  /// gives their orientations.
+  template <class Masses, class Turns>
   [[gnu::always_inline]] bool evaluateKnown(yade::Interaction& contact, yade::ScGeom& geom,
                                             yade::FrictPhys& phys, const BodyRow& one,
                                             const BodyRow& two, const Masses& masses,
-                                            Force& force) const {
+                                            const Turns& turns, Force& force) const {
     const ImageShift shift = shiftOf(contact);
-    return addLaw(contact, updateGeometry(geom, one, two, shift), static_cast<Phys&>(phys), one,
-                  two, shift, masses, force);
+    const ContactGeometry geometry = updateGeometry(geom, one, two, shift);
+    if constexpr (kUsesRotations<Law>) {
+      if (geometry_->updateRotations) {
+        updateRotations(static_cast<yade::ScGeom6D&>(geom), geometry.normal, turns(),
+                        geometry_->creep);
+      }
+    }
+    return addLaw(contact, geometry, static_cast<Phys&>(phys), one, two, shift, masses, force);
   }
 
  private:
+  static const yade::IPhysFunctor* propertiesOf(const yade::InteractionLoop& loop) {
+    const auto* const properties = functorOf(loop.physDispatcher->functors, Law::kProperties);
+    if constexpr (kHasExceptions<Law>) {
+      if (properties && Law::changesProperties(*properties)) return nullptr;
+    }
+    return properties;
+  }
+  [[nodiscard]] bool changesProperties(const yade::Interaction& contact) const {
+    if constexpr (kHasExceptions<Law>) {
+      if (!contact.functorCache.phys) return true;  // of a scene that was loaded
+      return hasProperties(contact) &&
+             Law::changesProperties(static_cast<const Phys&>(*contact.phys));
+    }
+    return false;
+  }
   // False: the contact has ended, and is reset.
   template <class Masses>
   [[gnu::always_inline]] bool addLaw(yade::Interaction& contact, const ContactGeometry& geometry,
@@ -165,6 +210,7 @@ class PairStep : public PairFunctors {
     return false;
   }
 
+  const typename Law::Geometry* geometry_;
   std::optional<Law> lawOfStep_;
 };
 

@@ -1,5 +1,6 @@
 // What a loop computes itself, in words.
 
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -37,9 +38,18 @@ std::string ContactLoop::report() const {
   if (loopOnSortedInteractions)
     return "All contacts: by YADE's InteractionLoop, since loopOnSortedInteractions is set.";
   const yade::Scene& here = *yade::Omega::instance().getScene();
-  const auto* const spheres = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
+  const yade::Ig2_Sphere_Sphere_ScGeom* spheres = nullptr;
   const yade::LawFunctor* known = nullptr;
-  withLaw(*this, here, [&]<class Law>(const typename Law::Functor* functor) { known = functor; });
+  std::function<const char*(const yade::IPhys&)> exception;
+  withLaw(*this, here, [&]<class Law>(const typename Law::Functor* functor) {
+    spheres = exactly<typename Law::Geometry>(geomDispatcher->functors);
+    known = functor;
+    if constexpr (kHasExceptions<Law>) {
+      exception = [law = Law(*functor, here)](const yade::IPhys& phys) {
+        return law.reasonForYade(static_cast<const typename Law::Phys&>(phys));
+      };
+    }
+  });
   std::map<std::string, long> counts;
   const std::lock_guard lock(here.interactions->drawloopmutex);
   for (const auto& contact : *here.interactions) {
@@ -50,9 +60,12 @@ std::string ContactLoop::report() const {
     what += " and ", what += shapeOf(here, contact->id2);
     what += geom.get() == spheres ? ": geometry by the loop" : ": geometry by YADE's ";
     if (geom.get() != spheres) what += geom->getClassName();
-    what += law.get() == known ? ", force by the loop, as " : ", force by YADE's ";
+    const bool isKnown = law.get() == known;
+    const char* const reason = isKnown && exception ? exception(*contact->phys) : nullptr;
+    what += isKnown && !reason ? ", force by the loop, as " : ", force by YADE's ";
     what += law->getClassName();
-    if (law.get() != known) what += reasonOf(*law, here);
+    if (!isKnown) what += reasonOf(*law, here);
+    if (reason) what += ", since ", what += reason;
     ++counts[what];
   }
   std::string text;

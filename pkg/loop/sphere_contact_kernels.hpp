@@ -4,6 +4,8 @@
 // are inline, as the laws are (`contact_law.hpp`): YADE's are reached through three virtual calls
 // and copies of shared pointers.
 
+#include <cmath>
+
 #include "core/four_lanes.hpp"
 #include "loop/exposed.hpp"
 
@@ -126,6 +128,31 @@ struct ContactGeometry {
   velocity = velocity - dot(next.normal, velocity) * next.normal;
   next.shearing = velocity * dt;
   return next;
+}
+
+/// Orientations (x, y, z, w) of the bodies of a contact.
+struct Orientations {
+  FourLanes one, two;
+};
+
+/// YADE's ScGeom6D::precomputeRotations, of a contact that has begun before: the rotation of the
+/// bodies relative to each other since then.
+[[gnu::always_inline]] inline void updateRotations(yade::ScGeom6D& geom, const FourLanes& normal,
+                                                   const Orientations& now, bool hasCreep) {
+  const FourLanes conjugate{-1, -1, -1, 1};
+  const auto begin1 = loadFour(geom.initialOrientation1.coeffs().data()),
+             begin2 = loadFour(geom.initialOrientation2.coeffs().data());
+  FourLanes turn = quaternionProduct(quaternionProduct(now.one, conjugate * begin1),
+                                     quaternionProduct(begin2, conjugate * now.two));
+  if (const double square = squaredNormOfFour(turn); square > 0) turn /= std::sqrt(square);
+  if (hasCreep) turn = quaternionProduct(turn, loadFour(geom.twistCreep.coeffs().data()));
+  const Eigen::AngleAxis<double> rotation(
+      Eigen::Quaternion<double>(turn[3], turn[0], turn[1], turn[2]));
+  const double size = std::isnan(rotation.angle()) ? 0 : rotation.angle();
+  const double angle = size > M_PI ? size - 2 * M_PI : size;
+  const FourLanes axis = loadThree(rotation.axis().data());
+  geom.twist = angle * dot(axis, normal);
+  storeThree(angle * axis - geom.twist * normal, geom.bending.data());
 }
 
 /// A vector in the plane of the contact, turned with it.

@@ -156,12 +156,12 @@ class BodyMemory {
   ScatterWatch states_;
 };
 
-/// Moves geometry and physics of each contact of YADE's classes ScGeom and `Phys`, FrictPhys or
-/// MindlinPhys, together, in the order of the scene's contacts, when they are scattered. Objects
+/// Moves geometry and physics of each contact of YADE's classes `Geom` and `Phys`, those of a law
+/// of the loop, together, in the order of the scene's contacts, when they are scattered. Objects
 /// that anything else than the contact refers to (a variable in Python) stay where they are.
 class ContactMemory {
  public:
-  template <class Phys>
+  template <class Geom, class Phys>
   void endStep(yade::Scene& scene);
 
  private:

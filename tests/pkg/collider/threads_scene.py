@@ -43,13 +43,23 @@ def gas(collider, kind):
 
 def stirred(collider, kind):
     """CurveLoop: contacts go and come, and so do bodies, for which rows are made."""
-    packing((12, 12, 8), .97, 1e-4, isTurning=True)
+    materials = dict(viscoelastic=w.ViscElMat(kn=1e7, ks=5e6, cn=3e4, cs=2e4, mR=.1, density=2000),
+                     cohesive=w.CohFrictMat(young=1e7, density=2000, normalCohesion=1e5, shearCohesion=1e5,
+                                            momentRotationLaw=True))
+    packing((12, 12, 8), .97, 1e-4, isTurning=True, material=materials.get(kind))
+    spheres = w.Ig2_Sphere_Sphere_ScGeom()
     if kind == 'mindlin':
         functors = [w.Ip2_FrictMat_FrictMat_MindlinPhys(en=.5, gamma=3e3, krot=4e3, ktwist=2e3, eta=.02)], \
             [w.Law2_ScGeom_MindlinPhys_Mindlin(includeAdhesion=True, includeMoment=True)]
+    elif kind == 'viscoelastic':
+        functors = [w.Ip2_ViscElMat_ViscElMat_ViscElPhys()], [w.Law2_ScGeom_ViscElPhys_Basic()]
+    elif kind == 'cohesive':
+        spheres = w.Ig2_Sphere_Sphere_ScGeom6D()
+        functors = [w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=True)], \
+            [w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]
     else:
         functors = [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]
-    loop = w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], *functors)
+    loop = w.CurveLoop([spheres], *functors)
     scenes.setEngines(collider, interactionLoop=loop)
     for number, steps in enumerate((1, 1, 60, 60), 1):
         O.run(steps, True)
@@ -76,7 +86,8 @@ def moment(hasForces=False):
         repr(interactions).encode() + np.array(rows, float).tobytes()).hexdigest())
 
 
-kScenes = dict(gas=gas, mixed=gas, periodic=gas, stirred=stirred, mindlin=stirred, NewtonIntegrator=falling, CurveIntegrator=falling)
+kScenes = dict(gas=gas, mixed=gas, periodic=gas, stirred=stirred, mindlin=stirred, viscoelastic=stirred, cohesive=stirred,
+               NewtonIntegrator=falling, CurveIntegrator=falling)
 
 if __name__ == '__main__':
     for kind in sys.argv[2:]:

@@ -190,13 +190,13 @@ def heap(material=None, periodic=False, spacing=1.45):
     O.dt = 2e-4
 
 
-def packing(shape, spacing, dt, isTurning=False, seed=2):
+def packing(shape, spacing, dt, isTurning=False, seed=2, material=None):
     """Spheres with friction in random motion, in an order that is not that of their places."""
     clear()
     chance = np.random.default_rng(seed)
     places = np.array(list(np.ndindex(shape))) * spacing
     chance.shuffle(places)
-    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    O.materials.append(material or w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
     addSpheres(places, [.5] * len(places), chance.normal(0, 2, (len(places), 3)), dynamic=True)
     for body in O.bodies if isTurning else ():
         body.state.angVel = chance.normal(0, 3, 3)

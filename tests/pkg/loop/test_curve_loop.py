@@ -4,12 +4,14 @@ import os
 
 import numpy as np
 import pytest
+import yade.config
 import yade.wrapper as w
 import yadefrag
 from yade import utils
 from yade.minieigenHP import Matrix3
 
 import scenes
+from law_twins import denseHeap, lonelyHeap
 from scenes import O, heap, packing, state
 
 NAMES = 'InteractionLoop', 'CurveLoop'
@@ -31,8 +33,6 @@ kFunctors = dict(
                        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
 kCohesive = ([w.Ig2_Sphere_Sphere_ScGeom6D, w.Ig2_Facet_Sphere_ScGeom6D, w.Ig2_Box_Sphere_ScGeom6D],
              [w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys], [w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment])
-kViscous = ([w.Ig2_Sphere_Sphere_ScGeom, w.Ig2_Facet_Sphere_ScGeom, w.Ig2_Box_Sphere_ScGeom],
-            [w.Ip2_ViscElMat_ViscElMat_ViscElPhys], [w.Law2_ScGeom_ViscElPhys_Basic])
 
 
 def loopOf(name, functors):
@@ -57,11 +57,6 @@ def requireSame(make, steps=700, **settings):
     return loop
 
 
-def denseHeap(**settings):
-    """With more contacts than bodies, which the loop then reads in rows."""
-    heap(spacing=1.15, **settings)
-
-
 @pytest.mark.parametrize('kind', kFunctors)
 @pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
 @pytest.mark.parametrize('build', [heap, denseHeap])
@@ -78,11 +73,7 @@ def test_bits(kind, collider, build):
 
 def test_fewContactsPerBody():
     """With many bodies that touch nothing the loop reads bodies in place: the same bits."""
-    def lonely():
-        heap()
-        for number in range(900):
-            O.bodies.append(utils.sphere((100 + 3 * (number % 30), 3 * (number // 30), 0), 1, fixed=True))
-    loop = requireSame(kFunctors['friction'], build=lonely)
+    loop = requireSame(kFunctors['friction'], build=lonelyHeap)
     assert len(O.interactions) < len(O.bodies) and loop.fastForces == O.interactions.countReal()
 
 
@@ -91,11 +82,12 @@ def test_otherLaws():
         lambda: [[make() for make in makers] for makers in kCohesive],
         material=w.CohFrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4, isCohesive=True,
                                normalCohesion=1e5, shearCohesion=1e5, momentRotationLaw=True))
-    assert cohesive.fastForces == 0
-    viscous = requireSame(
-        lambda: [[make() for make in makers] for makers in kViscous],
-        material=w.ViscElMat(kn=1e7, ks=5e6, cn=100, cs=50, density=2000, frictionAngle=.4))
-    assert viscous.fastForces == 0 and viscous.fastGeometries > 20
+    isKnown = yade.config.version < '2025'
+    assert cohesive.fastForces == (O.interactions.countReal() if isKnown else 0)
+    assert isKnown or 'since the loop knows this law of YADE before 2025.2 only' in cohesive.report()
+    linear = requireSame(lambda: [frictional()[0], [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
+                                  [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]])
+    assert linear.fastForces == 0 and linear.fastGeometries > 20
 
 
 @pytest.mark.parametrize('homoDeform', [0, 2])
@@ -110,9 +102,8 @@ def test_periodicCell(homoDeform):
 
 
 def mixed():
-    return [[make() for make in makers] for makers in
-            (kViscous[0], [w.Ip2_FrictMat_FrictMat_FrictPhys, w.Ip2_ViscElMat_ViscElMat_ViscElPhys],
-             [w.Law2_ScGeom_FrictPhys_CundallStrack, w.Law2_ScGeom_ViscElPhys_Basic])]
+    geometry, properties, law = frictional()
+    return geometry[:3], [*properties, w.Ip2_ViscElMat_ViscElMat_ViscElPhys()], [*law, w.Law2_ScGeom_ViscElPhys_Basic()]
 
 
 @pytest.mark.parametrize('build', [heap, denseHeap])

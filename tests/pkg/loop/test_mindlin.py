@@ -2,12 +2,11 @@
 import numpy as np
 import pytest
 import yade.wrapper as w
-from yade import utils
-from yade.minieigenHP import Matrix3
 
+import law_twins
 import scenes
-from scenes import O, heap, packing
-from test_curve_loop import NAMES, denseHeap, loopOf
+from law_twins import denseHeap, requireSame, run, some
+from scenes import O, heap
 
 # Arguments of the functors for properties and law, and of that for two spheres.
 kDamped = dict(en=.4, es=.7)
@@ -30,43 +29,8 @@ kOptions = dict(
 
 
 def mindlin(properties=None, law=None, sphere=None):
-    return ([w.Ig2_Sphere_Sphere_ScGeom(**(sphere or {})), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-             w.Ig2_Wall_Sphere_ScGeom()],
-            [w.Ip2_FrictMat_FrictMat_MindlinPhys(**(properties or {}))],
+    return (law_twins.geometries(**(sphere or {})), [w.Ip2_FrictMat_FrictMat_MindlinPhys(**(properties or {}))],
             [w.Law2_ScGeom_MindlinPhys_Mindlin(**(law or {}))])
-
-
-def numbers(value):
-    return list(value) if hasattr(value, '__len__') else [value]
-
-
-def state():
-    """All numbers of bodies and contacts, and all attributes of the physics, as bytes."""
-    rows = [[number for _, value in sorted(i.phys.dict().items()) for number in numbers(value)] for i in O.interactions]
-    return scenes.state() + [np.array(rows, float).tobytes()]
-
-
-def run(name, functors, steps, build=heap, threads=-1, change=None):
-    build()
-    loop = loopOf(name, functors)
-    loop.ompThreads = threads
-    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop,
-                 w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
-    found = []
-    for part in range(4):
-        O.run(steps // 4, True)
-        found.append(state())
-        if change:
-            change(part)
-    return loop, found
-
-
-def requireSame(make, steps, **settings):
-    _, expected = run('InteractionLoop', make(), steps, **settings)
-    loop, found = run('CurveLoop', make(), steps, **settings)
-    assert O.interactions.countReal() > 40
-    assert found == expected
-    return loop
 
 
 @pytest.mark.parametrize('kind', kOptions)
@@ -86,39 +50,9 @@ def test_bits(kind, build):
     assert kind != 'distant' or any(p.kn == 0 for p in contacts)
 
 
-@pytest.mark.parametrize('kind', ['damped', 'all'])
-def test_periodicCell(kind):
-    def sheared():
-        heap(periodic=True)
-        O.cell.homoDeform = 2
-        O.cell.velGrad = Matrix3(-.3, .2, 0, 0, -.2, 0, 0, 0, -.3)
-    loop = requireSame(lambda: mindlin(*kOptions[kind]), 700, build=sheared)
-    assert loop.fastForces == O.interactions.countReal()
-
-
-def test_clumps():
-    """Members count with masses of their own."""
-    def pairs():
-        scenes.clear()
-        O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
-        chance = np.random.default_rng(4)
-        for place in np.ndindex(4, 5, 5):
-            at = np.array(place) * (1.55, .97, .97) + chance.uniform(-.02, .02, 3)
-            clump, _ = O.bodies.appendClumped([utils.sphere(at, .5), utils.sphere(at + (.6, 0, 0), .45)])
-            O.bodies[clump].state.vel = chance.normal(0, 2, 3)
-        O.dt = 1e-4
-    loop = requireSame(lambda: mindlin(*kOptions['all']), 160, build=pairs)
-    assert loop.fastForces == O.interactions.countReal() > 150
-
-
-def test_fewContactsPerBody():
-    """With many bodies that touch nothing the loop reads bodies in place: the same bits."""
-    def lonely():
-        heap()
-        for number in range(900):
-            O.bodies.append(utils.sphere((100 + 3 * (number % 30), 3 * (number // 30), 0), 1, fixed=True))
-    loop = requireSame(lambda: mindlin(*kOptions['all']), 700, build=lonely)
-    assert len(O.interactions) < len(O.bodies) and loop.fastForces == O.interactions.countReal()
+@pytest.mark.parametrize('build', law_twins.kScenes)
+def test_scenes(build):
+    law_twins.requireSameIn(build, lambda: mindlin(*kOptions['all']))
 
 
 def test_changesBetweenSteps():
@@ -142,7 +76,7 @@ def test_energies():
     def make():
         return mindlin(kDamped, dict(calcEnergy=True))
     sums = []
-    for name in NAMES:
+    for name in ('InteractionLoop', 'CurveLoop'):
         loop, found = run(name, make(), 300)
         law, = loop.lawDispatcher.functors
         sums.append([found, law.frictionDissipation, law.shearEnergy, law.normDampDissip, law.shearDampDissip,
@@ -183,22 +117,14 @@ def test_bothLaws():
     assert loop.fastForces == O.interactions.countReal()
 
 
-def test_movedTogether():
-    """From 2,048 contacts on, geometries and physics are moved together: the same bits."""
-    requireSame(lambda: mindlin(*kOptions['all']), 160, build=lambda: packing((12, 12, 12), .97, 1e-4, seed=5))
-    assert O.interactions.countReal() > 2048
-
-
 def drawn(chance):
     """Random options; those that exclude each other are not both drawn."""
-    def some(**values):
-        return {name: value for name, value in values.items() if chance.random() < .5}
-    damping = [some(en=chance.uniform(.1, 1), es=chance.uniform(.1, 1)),
-               some(betan=chance.uniform(0, .6), betas=chance.uniform(0, .6))][chance.integers(2)]
-    turning = some(krot=10**chance.uniform(1, 6), ktwist=10**chance.uniform(1, 6), eta=10**chance.uniform(-3, 1))
-    law = some(includeAdhesion=True, includeMoment=True, neverErase=True)
-    sphere = some(interactionDetectionFactor=chance.uniform(1, 1.2), avoidGranularRatcheting=False)
-    return damping | turning | some(gamma=10**chance.uniform(0, 5), frictAngle=chance.uniform(0, 1)), law, sphere
+    damping = [some(chance, en=chance.uniform(.1, 1), es=chance.uniform(.1, 1)),
+               some(chance, betan=chance.uniform(0, .6), betas=chance.uniform(0, .6))][chance.integers(2)]
+    turning = some(chance, krot=10**chance.uniform(1, 6), ktwist=10**chance.uniform(1, 6), eta=10**chance.uniform(-3, 1))
+    law = some(chance, includeAdhesion=True, includeMoment=True, neverErase=True)
+    sphere = some(chance, interactionDetectionFactor=chance.uniform(1, 1.2), avoidGranularRatcheting=False)
+    return damping | turning | some(chance, gamma=10**chance.uniform(0, 5), frictAngle=chance.uniform(0, 1)), law, sphere
 
 
 @pytest.mark.parametrize('seed', range(12))

@@ -1,0 +1,126 @@
+#pragma once
+// YADE's Law2_ScGeom6D_CohFrictPhys_CohesionMoment: bonds that break or yield, friction, moments of
+// bending and twisting.
+
+#include <algorithm>
+#include <cmath>
+
+#include "loop/contact_law.hpp"
+
+namespace yadefrag {
+
+class Cohesive {
+ public:
+  using Functor = yade::Law2_ScGeom6D_CohFrictPhys_CohesionMoment;
+  using Geometry = yade::Ig2_Sphere_Sphere_ScGeom6D;
+  using Phys = yade::CohFrictPhys;
+  struct Force : ContactForce {
+    FourLanes moment;
+    bool hasMoment;
+  };
+  static constexpr std::string_view kProperties =
+      "N4yade40Ip2_CohFrictMat_CohFrictMat_CohFrictPhysE";
+  static constexpr bool kUsesMasses = false;
+  static constexpr std::size_t kBytes = sizeof(Phys);
+
+  Cohesive(const Functor& functor, const yade::Scene& scene) : functor_(functor), scene_(scene) {}
+
+  static const char* reasonForYade(const Functor& functor, const yade::Scene& scene) {
+    if (YADEFRAG_YADE >= 202502) return "the loop knows this law of YADE before 2025.2 only";
+    if (functor.traceEnergy) return "traceEnergy is set";
+    if (functor.twist_creep) return "twist_creep is set";
+    return scene.trackEnergy ? "O.trackEnergy is set" : nullptr;
+  }
+  static bool changesProperties(const yade::IPhysFunctor& properties) {
+    using Known = yade::Ip2_CohFrictMat_CohFrictMat_CohFrictPhys;
+    return static_cast<const Known&>(properties).setCohesionNow;
+  }
+  static bool changesProperties(const Phys& phys) { return phys.initCohesion; }
+  [[gnu::always_inline]] const char* reasonForYade(const Phys& phys) const {
+    if (functor_.useIncrementalForm || !phys.momentRotationLaw) return nullptr;
+    if (phys.maxRollPl < 0 && phys.maxTwistPl < 0) return nullptr;
+    return "YADE warns of limits of moments without useIncrementalForm";
+  }
+
+  template <class View>
+  [[gnu::always_inline]] bool apply(const View& view, Phys& phys, Force& force) const {
+    const ContactGeometry& geometry = view.geometry;
+    double size = phys.kn * (geometry.depth - phys.unp);
+    if (-size > phys.normalAdhesion && !yields(geometry, phys, size)) return false;
+    FourLanes normalForce = size * geometry.normal;
+    const FourLanes shear = shearOf(view, size, phys, normalForce);
+    storeThree(normalForce, phys.normalForce.data());
+    static_cast<ContactForce&>(force) =
+        contactForce(geometry, normalForce + shear, false, view.one.position(), view.position2());
+    force.hasMoment =
+        phys.momentRotationLaw && (!phys.cohesionBroken || functor_.always_use_moment_law);
+    if (force.hasMoment) force.moment = momentOf(view, norm(normalForce), phys);
+    return true;
+  }
+
+ private:
+  // Beyond the tensile strength; false: the contact has ended.
+  static bool yields(const ContactGeometry& geometry, Phys& phys, double& size) {
+    if (phys.fragile) return false;
+    size = -phys.normalAdhesion;
+    phys.unp = geometry.depth + phys.normalAdhesion / phys.kn;
+    return !(phys.unpMax >= 0 && -phys.unp > phys.unpMax);
+  }
+
+  // Limited by cohesion and friction; a brittle bond breaks there. `size`: of the normal force,
+  // which a contact that slips has as pressure only.
+  template <class View>
+  [[gnu::always_inline]] FourLanes shearOf(const View& view, double size, Phys& phys,
+                                           FourLanes& normalForce) const {
+    FourLanes shear{};
+    if (view.contact.iterMadeReal != scene_.iter) shear = loadThree(phys.shearForce.data());
+    if (functor_.shear_creep) shear -= phys.ks * (shear * scene_.dt / functor_.creep_viscosity);
+    shear = turned(shear, view.geometry) - phys.ks * view.geometry.shearing;
+    const double friction = size * phys.tangensOfFrictionAngle, force = norm(shear);
+    double limit = phys.shearAdhesion;
+    if (!phys.cohesionDisablesFriction || limit == 0) limit += friction;
+    limit = std::max(0., limit);
+    if (force > limit) {
+      if (phys.fragile && !phys.cohesionBroken) {
+        phys.cohesionBroken = true;
+        phys.normalAdhesion = phys.shearAdhesion = 0;
+        limit = std::max(0., friction);
+      }
+      shear *= limit / force;
+      if (size < 0) normalForce = FourLanes{};
+    }
+    storeThree(shear, phys.shearForce.data());
+    return shear;
+  }
+
+  template <class View>
+  [[gnu::always_inline]] FourLanes momentOf(const View& view, double pressure, Phys& phys) const {
+    const ContactGeometry& geometry = view.geometry;
+    FourLanes twist, bend;
+    if (functor_.useIncrementalForm) {
+      const FourLanes spin = view.two.spin() - view.one.spin();
+      const FourLanes about = dot(geometry.normal, spin) * geometry.normal;
+      bend = turned(loadThree(phys.moment_bending.data()), geometry) -
+             phys.kr * ((spin - about) * scene_.dt);
+      twist =
+          turned(loadThree(phys.moment_twist.data()), geometry) - phys.ktw * (about * scene_.dt);
+    } else {
+      const auto& rotation = static_cast<const yade::ScGeom6D&>(*view.contact.geom);
+      twist = (rotation.twist * phys.ktw) * geometry.normal;
+      bend = loadThree(rotation.bending.data()) * phys.kr;
+    }
+    limitTo(phys.maxRollPl, pressure, bend), limitTo(phys.maxTwistPl, pressure, twist);
+    storeThree(bend, phys.moment_bending.data()), storeThree(twist, phys.moment_twist.data());
+    return twist + bend;
+  }
+  [[gnu::always_inline]] static void limitTo(double factor, double pressure, FourLanes& moment) {
+    if (!(factor >= 0)) return;
+    const double limit = factor * pressure, size = norm(moment);
+    if (size > limit) moment *= limit / size;
+  }
+
+  const Functor& functor_;
+  const yade::Scene& scene_;
+};
+
+}  // namespace yadefrag
