@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "core/comparisons.hpp"
 #include "core/csr.hpp"
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
-#include "figure14/comparisons.hpp"
 #include "search/contact_search.hpp"
 
 namespace yadefrag {

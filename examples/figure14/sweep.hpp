@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "figure14/comparisons.hpp"
+#include "core/comparisons.hpp"
 #include "figure14/point_search.hpp"
 
 namespace yadefrag::figure14 {

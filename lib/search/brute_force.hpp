@@ -5,6 +5,7 @@
 
 namespace yadefrag {
 
+template <class Count>
 class BruteForce final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
@@ -13,11 +14,14 @@ class BruteForce final : public ContactSearch {
   }
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override { boxes_ = {}; }
+  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
   void findPairs(std::vector<BoxPair>& pairs) override {
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      for (std::size_t j = i + 1; j < boxes_.size(); ++j)
+      for (std::size_t j = i + 1; j < boxes_.size(); ++j) {
+        count_.test(6);
         if (overlaps(boxes_[i], boxes_[j])) pairs.push_back({BoxId(i), BoxId(j)});
+      }
       if (isFull(pairs)) throw TooManyPairs();
     }
   }
@@ -29,6 +33,7 @@ class BruteForce final : public ContactSearch {
 
  private:
   std::span<const Box> boxes_;
+  Count count_;
 };
 
 }  // namespace yadefrag

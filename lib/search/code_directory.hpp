@@ -10,8 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "search/sorted_list.hpp"
-
 namespace yadefrag {
 
 class CodeDirectory {
@@ -20,8 +18,8 @@ class CodeDirectory {
   void build(std::span<const std::uint64_t> codes);
 
   /// Index of the first code ≥ `code`.
-  template <class Count = Uncounted>
-  [[nodiscard]] std::uint32_t lowerBound(std::uint64_t code, Count&& count = {}) const {
+  template <class Count>
+  [[nodiscard]] std::uint32_t lowerBound(std::uint64_t code, Count& count) const {
     std::uint32_t at = 0;
     for (;;) {
       const Node& node = nodes_[at];

@@ -56,9 +56,10 @@ class CodeLevel {
   }
 
   /// Inserts new entries, which ascend in slot.
-  void insert(std::vector<CodedSlot>& incoming) {
+  template <class Count>
+  void insert(std::vector<CodedSlot>& incoming, Count& count) {
     sortByCode(incoming);
-    list_.insert(incoming);
+    list_.insert(incoming, count);
     changed_ = true;
   }
 

@@ -21,7 +21,7 @@
 
 namespace yadefrag {
 
-template <class Numbering, int Dim>
+template <class Numbering, int Dim, class Count>
 class CodeSearch final : public ContactSearch {
  public:
   explicit CodeSearch(const SearchPlan& plan)
@@ -32,6 +32,7 @@ class CodeSearch final : public ContactSearch {
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override;
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override;
+  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
  private:
   using Code = PositionCode<Dim>;
@@ -78,10 +79,10 @@ class CodeSearch final : public ContactSearch {
 
   void locateAll();
   void collectMoved();
-  Change locate(const Box& box, Place& place, Extents& extents) const;
+  Change locate(const Box& box, Place& place, Extents& extents, Count& count) const;
   [[nodiscard]] int levelFor(const Box& box, double side) const;
-  bool stepWithin(const Box& box, Place& place) const;
-  bool staysInRow(const Box& box, Place& place) const;
+  bool stepWithin(const Box& box, Place& place, Count& count) const;
+  bool staysInRow(const Box& box, Place& place, Count& count) const;
   void encodeAnew(const Box& box, Place& place) const;
   void sendSparseLevelsWide();
   bool joinThinLevels();
@@ -91,19 +92,25 @@ class CodeSearch final : public ContactSearch {
   void joinSections(std::span<const std::vector<std::size_t>> ends,
                     std::vector<BoxPair>& pairs) const;
   void pairsOfLevel(int level, std::size_t from, std::size_t to, RowBegins& begins,
-                    std::vector<BoxPair>& out) const;
+                    std::vector<BoxPair>& out, Count& count) const;
   void pairsOf(int level, std::size_t i, std::span<const int> searched, RowBegins& begins,
-               std::vector<BoxPair>& out) const;
+               std::vector<BoxPair>& out, Count& count) const;
   template <class Visit>
-  void visitLaterNeighbours(const Level& level, int own, std::size_t i, Visit visit) const;
+  void visitLaterNeighbours(const Level& level, int own, std::size_t i, Count& count,
+                            Visit visit) const;
+  static void countRange(const Level& level, std::size_t begin, const CodeRange& range,
+                         Count& count);
   template <class Visit>
   void visitRange(const Level& level, const FilterBox& filter, const Box& box, std::uint32_t begin,
-                  const CodeRange& range, Visit visit) const;
-  void sweepRows(int level, std::size_t from, std::size_t to, std::vector<BoxPair>& out) const;
-  void outerRows(const Level& level, std::size_t i, std::vector<BlockRange>& ranges) const;
+                  const CodeRange& range, Count& count, Visit visit) const;
+  void sweepRows(int level, std::size_t from, std::size_t to, std::vector<BoxPair>& out,
+                 Count& count) const;
+  void outerRows(const Level& level, std::size_t i, std::vector<BlockRange>& ranges,
+                 Count& count) const;
   template <class Visit>
-  void visitRectangle(const Box& box, int at, RowBegins::OfLevel* begins, Visit visit) const;
-  std::uint32_t lowerBound(const Level& level, std::uint64_t code) const;
+  void visitRectangle(const Box& box, int at, RowBegins::OfLevel* begins, Count& count,
+                      Visit visit) const;
+  std::uint32_t lowerBound(const Level& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;
   Extent rectangleOf(const Box& box, int level, CodeRange& corners) const;
   [[nodiscard]] bool searchesLevel(int own, int other) const;
@@ -122,6 +129,7 @@ class CodeSearch final : public ContactSearch {
   bool started_ = false;
   std::array<std::vector<CodedSlot>, kLevels> arriving_;
   std::vector<PartList<BoxPair>> partPairs_;
+  Count count_;
 };
 
 }  // namespace yadefrag

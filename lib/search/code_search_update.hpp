@@ -8,14 +8,14 @@
 
 namespace yadefrag {
 
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::clear() {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::clear() {
   places_.clear();
   started_ = false;
 }
 
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::update(std::span<const Box> boxes) {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
   boxes_ = boxes;
   if (!started_) {
     places_.clear();
@@ -49,31 +49,34 @@ void CodeSearch<Numbering, Dim>::update(std::span<const Box> boxes) {
   for (const int level : occupied_) levels_[level].refresh(boxes, scale, withDirectory, threads_);
 }
 
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::locateAll() {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::locateAll() {
   const std::size_t before = places_.size();
   const std::size_t count = std::max(before, boxes_.size());
   places_.resize(count);  // this update removes the slots beyond the new end
   changes_.assign(count, Change::kNone);
   std::vector<Extents> extents(static_cast<std::size_t>(threads_), Extents{});
+  std::vector<Count> counts(static_cast<std::size_t>(threads_));
   const Box absent = Box::absent();
   const int parts = forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int part) {
     for (std::size_t i = begin; i < end; ++i) {
       const Box& box = i < boxes_.size() ? boxes_[i] : absent;
       Place place = places_.at(i);
-      changes_[i] = locate(box, place, extents[part]);
+      changes_[i] = locate(box, place, extents[part], counts[part]);
       places_.set(i, place);
     }
   });
   extents_.fill(0);
-  for (int part = 0; part < parts; ++part)
+  for (int part = 0; part < parts; ++part) {
+    count_.merge(counts[part]);
     for (int level = 0; level < kLevels; ++level)
       extents_[level] = std::max(extents_[level], extents[part][level]);
+  }
 }
 
-template <class Numbering, int Dim>
-auto CodeSearch<Numbering, Dim>::locate(const Box& box, Place& place, Extents& extents) const
-    -> Change {
+template <class Numbering, int Dim, class Count>
+auto CodeSearch<Numbering, Dim, Count>::locate(const Box& box, Place& place, Extents& extents,
+                                               Count& count) const -> Change {
   if (box.isAbsent()) {
     const bool was = place.level != kAbsent;
     place.level = kAbsent;
@@ -84,7 +87,8 @@ auto CodeSearch<Numbering, Dim>::locate(const Box& box, Place& place, Extents& e
   if (level >= 0 && side > extents[level]) extents[level] = side;
   if (level == place.level) {
     if (level < 0) return Change::kNone;
-    const bool stays = Numbering::kIsCurve ? stepWithin(box, place) : staysInRow(box, place);
+    const bool stays =
+        Numbering::kIsCurve ? stepWithin(box, place, count) : staysInRow(box, place, count);
     return stays ? Change::kNone : Change::kMoved;
   }
   place.level = level;
@@ -92,8 +96,8 @@ auto CodeSearch<Numbering, Dim>::locate(const Box& box, Place& place, Extents& e
   return Change::kMoved;
 }
 
-template <class Numbering, int Dim>
-int CodeSearch<Numbering, Dim>::levelFor(const Box& box, double side) const {
+template <class Numbering, int Dim, class Count>
+int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) const {
   int level = grid_.levelOf(side);
   if (level >= kLevels || isWide_[level]) return kWide;
   level = joined_[level];
@@ -104,12 +108,14 @@ int CodeSearch<Numbering, Dim>::levelFor(const Box& box, double side) const {
 
 /// Fig. 6 (position_code.hpp): two comparisons per axis decide whether the box has kept its
 /// position code. Returns true if it has.
-template <class Numbering, int Dim>
-bool CodeSearch<Numbering, Dim>::stepWithin(const Box& box, Place& place) const {
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
+                                                   Count& count) const {
   bool same = true;
   for (int d = 0; d < Dim; ++d) {
     const double x = grid_.scaled(box.min[grid_.axis(d)], place.level, d);
     const auto floor = static_cast<double>(grid_.origin(place.level, d) + place.number[d]);
+    count.move(2);
     const bool down = x < floor;
     const bool up = x >= floor + 1;
     if (!(down | up)) continue;
@@ -120,6 +126,9 @@ bool CodeSearch<Numbering, Dim>::stepWithin(const Box& box, Place& place) const 
       return false;
     }
     const auto number = static_cast<std::uint32_t>(place.number[d]);
+    const std::uint32_t crossed = down ? number : number + 1;
+    count.move(static_cast<std::uint64_t>(std::countr_zero(crossed | (1U << (Code::kBits - 1)))) +
+               1);
     place.code = down ? Code::stepDown(place.code, d, number) : Code::stepUp(place.code, d, number);
     place.number[d] += down ? -1 : 1;
   }
@@ -127,11 +136,13 @@ bool CodeSearch<Numbering, Dim>::stepWithin(const Box& box, Place& place) const 
 }
 
 /// The same for codes row by row, which are encoded anew where any number has changed.
-template <class Numbering, int Dim>
-bool CodeSearch<Numbering, Dim>::staysInRow(const Box& box, Place& place) const {
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::staysInRow(const Box& box, Place& place,
+                                                   Count& count) const {
   if constexpr (!Numbering::kIsCurve) {
     const Cell before = Numbering::decode(place.code);
     for (int d = 0; d < Dim; ++d) {
+      count.move(2);
       const std::int32_t now = grid_.number(box.min[grid_.axis(d)], place.level, d);
       if ((static_cast<std::uint32_t>(now) & Code::kMask) == before[d]) continue;
       encodeAnew(box, place);
@@ -141,8 +152,8 @@ bool CodeSearch<Numbering, Dim>::staysInRow(const Box& box, Place& place) const 
   return true;
 }
 
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::encodeAnew(const Box& box, Place& place) const {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::encodeAnew(const Box& box, Place& place) const {
   Cell cell;
   for (int d = 0; d < Dim; ++d) {
     place.number[d] = grid_.number(box.min[grid_.axis(d)], place.level, d);
@@ -152,8 +163,8 @@ void CodeSearch<Numbering, Dim>::encodeAnew(const Box& box, Place& place) const 
 }
 
 /// A separate level for a few boxes would cost every smaller box a range search.
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::sendSparseLevelsWide() {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
   std::array<std::size_t, kLevels> population{};
   for (const int level : places_.levels)
     if (level >= 0) ++population[level];
@@ -167,8 +178,8 @@ void CodeSearch<Numbering, Dim>::sendSparseLevelsWide() {
 /// merged into the next one: that adds few candidates there and saves the search between the two.
 /// In rows, boxes that were merged into a level count there, too: coarse levels have long rows.
 /// Returns true if any levels were merged.
-template <class Numbering, int Dim>
-bool CodeSearch<Numbering, Dim>::joinThinLevels() {
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
   std::array<std::vector<std::uint32_t>, kLevels + 1> members;
   for (std::size_t slot = 0; slot < places_.size(); ++slot)
     if (const int level = places_.levels[slot]; level >= 0)
@@ -192,8 +203,9 @@ bool CodeSearch<Numbering, Dim>::joinThinLevels() {
 }
 
 /// True if there are few of these boxes in each position-code box of a level that has any.
-template <class Numbering, int Dim>
-bool CodeSearch<Numbering, Dim>::areThin(std::span<const std::uint32_t> slots, int level) const {
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::areThin(std::span<const std::uint32_t> slots,
+                                                int level) const {
   std::vector<CodedSlot> codes;
   for (const std::uint32_t slot : slots) {
     Cell cell;
@@ -209,8 +221,8 @@ bool CodeSearch<Numbering, Dim>::areThin(std::span<const std::uint32_t> slots, i
   return static_cast<double>(codes.size()) <= tolerance::kThinLevel * static_cast<double>(boxes);
 }
 
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::collectMoved() {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::collectMoved() {
   for (auto& list : arriving_) list.clear();
   wide_.clear();
   bool any = false;
@@ -225,7 +237,7 @@ void CodeSearch<Numbering, Dim>::collectMoved() {
     for (int level = 0; level < kLevels; ++level) {
       if (levels_[level].size() > 0)
         levels_[level].remove([&](std::uint32_t slot) { return changes_[slot] != Change::kNone; });
-      if (!arriving_[level].empty()) levels_[level].insert(arriving_[level]);
+      if (!arriving_[level].empty()) levels_[level].insert(arriving_[level], count_);
       // Most boxes arrive at the start only.
       if (8 * arriving_[level].size() > levels_[level].size()) arriving_[level] = {};
     }
@@ -233,8 +245,8 @@ void CodeSearch<Numbering, Dim>::collectMoved() {
   places_.resize(boxes_.size());
 }
 
-template <class Numbering, int Dim>
-void CodeSearch<Numbering, Dim>::listOccupiedLevels() {
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::listOccupiedLevels() {
   occupied_.clear();
   for (int level = 0; level < kLevels; ++level)
     if (levels_[level].size() > 0) occupied_.push_back(level);

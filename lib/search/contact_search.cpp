@@ -6,22 +6,31 @@
 #include "search/planned_search.hpp"
 
 namespace yadefrag {
-std::unique_ptr<ContactSearch> makeSearch(SearchMethod method) {
+namespace {
+
+template <class Count>
+std::unique_ptr<ContactSearch> make(SearchMethod method) {
   switch (method) {
     case SearchMethod::kLebesgue:
-      return std::make_unique<PlannedSearch<LebesgueNumbering>>();
+      return std::make_unique<PlannedSearch<Count, LebesgueNumbering>>();
     case SearchMethod::kLinearCode:
-      return std::make_unique<PlannedSearch<LinearNumbering>>();
+      return std::make_unique<PlannedSearch<Count, LinearNumbering>>();
     case SearchMethod::kSweptRows:
-      return std::make_unique<PlannedSearch<SweptRows>>();
+      return std::make_unique<PlannedSearch<Count, SweptRows>>();
     case SearchMethod::kFastest:
-      return std::make_unique<PlannedSearch<LebesgueNumbering, SweptRows>>();
+      return std::make_unique<PlannedSearch<Count, LebesgueNumbering, SweptRows>>();
     case SearchMethod::kHierarchy:
-      return std::make_unique<HierarchySearch>();
+      return std::make_unique<HierarchySearch<Count>>();
     case SearchMethod::kBruteForce:
       break;
   }
-  return std::make_unique<BruteForce>();
+  return std::make_unique<BruteForce<Count>>();
+}
+
+}  // namespace
+
+std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons) {
+  return countComparisons ? make<CountAll>(method) : make<CountNothing>(method);
 }
 
 }  // namespace yadefrag

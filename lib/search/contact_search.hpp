@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/comparisons.hpp"
 #include "core/errors.hpp"
 #include "core/ids.hpp"
 #include "core/parallel.hpp"
@@ -57,6 +58,9 @@ class ContactSearch {
   /// Deletes all stored data: the next update is a complete one.
   virtual void clear() = 0;
 
+  /// Comparisons since construction; zero unless `makeSearch` was called with counting.
+  [[nodiscard]] virtual Comparisons comparisons() const = 0;
+
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }
 
@@ -89,7 +93,7 @@ enum class SearchMethod {
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
 };
 
-std::unique_ptr<ContactSearch> makeSearch(SearchMethod method);
+std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);
 
 /// For a single query: no data are kept for later ones.
 [[nodiscard]] inline std::vector<BoxPair> overlappingPairs(

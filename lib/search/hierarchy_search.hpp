@@ -12,6 +12,7 @@
 
 namespace yadefrag {
 
+template <class Count>
 class HierarchySearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
@@ -35,23 +36,26 @@ class HierarchySearch final : public ContactSearch {
   void findPairs(std::vector<BoxPair>& pairs) override {
     const std::span<const std::uint32_t> order = tree_.order();
     std::vector<PartList<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
+    std::vector<Count> counts(partPairs.size());
     const int parts =
         forEachPart(order.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
           for (std::size_t i = begin; i < end && !isFull(partPairs[part]); ++i) {
             const Box& box = boxes_[order[i]];
-            descend(box, i + 1, [&](std::uint32_t other) {
+            descend(box, i + 1, counts[part], [&](std::uint32_t other) {
               partPairs[part].push_back(orderedPair(BoxId(order[i]), BoxId(other)));
             });
-            wide_.pairsWith(boxes_, box, order[i], partPairs[part]);
+            wide_.pairsWith(boxes_, box, order[i], partPairs[part], counts[part]);
           }
         });
     join({partPairs.data(), static_cast<std::size_t>(parts)}, pairs);
-    wide_.pairsAmong(boxes_, pairs, mostPairs_);
+    for (int part = 0; part < parts; ++part) count_.merge(counts[part]);
+    wide_.pairsAmong(boxes_, pairs, count_, mostPairs_);
   }
 
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {
-    descend(box, 0, [&](std::uint32_t other) { found.push_back(BoxId(other)); });
-    wide_.overlapsWith(boxes_, box, found);
+    Count uncounted;
+    descend(box, 0, uncounted, [&](std::uint32_t other) { found.push_back(BoxId(other)); });
+    wide_.overlapsWith(boxes_, box, found, uncounted);
   }
 
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
@@ -59,6 +63,7 @@ class HierarchySearch final : public ContactSearch {
     slots_.clear();
     tree_ = {};
   }
+  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
  private:
   static bool isFinite(const Box& box) {
@@ -69,17 +74,20 @@ class HierarchySearch final : public ContactSearch {
 
   /// Visits the slots whose boxes overlap `box`, from the `first` one of the tree's order on.
   template <class Visit>
-  void descend(const Box& box, std::size_t first, Visit visit) const {
+  void descend(const Box& box, std::size_t first, Count& count, Visit visit) const {
     const std::span<const Hierarchy::Node> nodes = tree_.nodes();
     for (std::uint32_t at = 0; at < nodes.size();) {
       const Hierarchy::Node& node = nodes[at];
+      count.range(7);
       if (node.end <= first || !overlaps(box, node.box)) {
         at = node.skip;
         continue;
       }
       if (node.isLeaf(at))
-        for (std::size_t i = std::max<std::size_t>(node.begin, first); i < node.end; ++i)
+        for (std::size_t i = std::max<std::size_t>(node.begin, first); i < node.end; ++i) {
+          count.test(6);
           if (overlaps(box, boxes_[tree_.order()[i]])) visit(tree_.order()[i]);
+        }
       ++at;
     }
   }
@@ -88,6 +96,7 @@ class HierarchySearch final : public ContactSearch {
   std::vector<std::uint32_t> slots_;  // slots in the tree, ascending
   Hierarchy tree_;
   WideBoxes wide_;
+  Count count_;
 };
 
 }  // namespace yadefrag

@@ -9,8 +9,9 @@
 
 namespace yadefrag {
 
-IncrementalSearch::IncrementalSearch(SearchMethod method)
-    : settled_(makeSearch(method)), aside_(makeSearch(method)) {}
+IncrementalSearch::IncrementalSearch(SearchMethod method, bool countComparisons)
+    : settled_(makeSearch(method, countComparisons)),
+      aside_(makeSearch(method, countComparisons)) {}
 
 void IncrementalSearch::update(std::span<const Box> boxes) {
   boxes_ = boxes;
@@ -121,6 +122,12 @@ void IncrementalSearch::setThreads(int threads) {
 void IncrementalSearch::setMostPairs(std::size_t most) {
   mostPairs_ = most;
   settled_->setMostPairs(most);
+}
+
+Comparisons IncrementalSearch::comparisons() const {
+  Comparisons sum = settled_->comparisons();
+  sum += aside_->comparisons();
+  return sum;
 }
 
 }  // namespace yadefrag

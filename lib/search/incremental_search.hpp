@@ -16,7 +16,7 @@ namespace yadefrag {
 /// as that costs less than the separate search has cost.
 class IncrementalSearch {
  public:
-  explicit IncrementalSearch(SearchMethod method);
+  explicit IncrementalSearch(SearchMethod method, bool countComparisons = false);
 
   /// Takes all boxes, as in `ContactSearch`; the array must not move until the next call of
   /// `update` or `change`.
@@ -39,6 +39,7 @@ class IncrementalSearch {
 
   void setThreads(int threads);
   void setMostPairs(std::size_t most);
+  [[nodiscard]] Comparisons comparisons() const;
   /// Number of boxes that are not sorted in.
   [[nodiscard]] std::size_t aside() const { return asideSlots_.size(); }
 

@@ -13,7 +13,7 @@ namespace yadefrag {
 
 /// With a second numbering that one is used while enough boxes have a similar size. The order
 /// of the pairs then depends on the choice.
-template <template <int> class Numbering, template <int> class Even = Numbering>
+template <class Count, template <int> class Numbering, template <int> class Even = Numbering>
 class PlannedSearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
@@ -35,7 +35,13 @@ class PlannedSearch final : public ContactSearch {
   void relocate(std::span<const Box> boxes) override {
     if (search_) search_->relocate(boxes);
   }
-  void clear() override { search_.reset(); }
+  void clear() override { search_ ? retire() : void(); }
+
+  [[nodiscard]] Comparisons comparisons() const override {
+    Comparisons sum = retired_;
+    if (search_) sum += search_->comparisons();
+    return sum;
+  }
 
  private:
   [[nodiscard]] SearchPlan planNow(std::span<const Box> boxes) const {
@@ -43,7 +49,12 @@ class PlannedSearch final : public ContactSearch {
     if (!plan_.isEven) return planSearch(boxes, tolerance::kEven);
     return planSearch(boxes, tolerance::kStillEven * tolerance::kEven, plan_.extent);
   }
+  void retire() {
+    retired_ += search_->comparisons();
+    search_.reset();
+  }
   void start(const SearchPlan& plan) {
+    if (search_) retire();
     plan_ = plan;
     search_ = make<Numbering>();
     if constexpr (kChooses)
@@ -51,13 +62,14 @@ class PlannedSearch final : public ContactSearch {
   }
   template <template <int> class Chosen>
   [[nodiscard]] std::unique_ptr<ContactSearch> make() const {
-    if (plan_.dim == 2) return std::make_unique<CodeSearch<Chosen<2>, 2>>(plan_);
-    return std::make_unique<CodeSearch<Chosen<3>, 3>>(plan_);
+    if (plan_.dim == 2) return std::make_unique<CodeSearch<Chosen<2>, 2, Count>>(plan_);
+    return std::make_unique<CodeSearch<Chosen<3>, 3, Count>>(plan_);
   }
 
   static constexpr bool kChooses = !std::is_same_v<Numbering<2>, Even<2>>;
   SearchPlan plan_;
   std::unique_ptr<ContactSearch> search_;
+  Comparisons retired_;
 };
 
 }  // namespace yadefrag

@@ -23,9 +23,9 @@ class RowBegins {
    public:
     /// Index of the first code ≥ `code`, for the row'th row of a rectangle. `codes` is ascending;
     /// its last element is greater than any code.
-    template <class Count = Uncounted>
+    template <class Count>
     std::uint32_t lowerBound(int row, std::span<const std::uint64_t> codes, std::uint64_t code,
-                             Count&& count = {}) {
+                             Count& count) {
       std::uint32_t& begin = begins_[static_cast<std::size_t>(row) % begins_.size()];
       count.range(1);
       for (int step = 0; begin > 0 && codes[begin - 1] >= code; ++step) {

@@ -20,17 +20,11 @@ struct CodedSlot {
   }
 };
 
-/// Counts no comparisons. Those of the paper (§6) are counted in examples/figure14.
-struct Uncounted {
-  void resort(std::uint64_t) {}
-  void range(std::uint64_t) {}
-};
-
 /// Index of the first code ≥ `code` of the ascending `codes`; it is known to be in [begin, end].
 /// Without a branch that depends on a code: half of them would be mispredicted.
-template <class Count = Uncounted>
+template <class Count>
 std::uint32_t bisectCodes(std::span<const std::uint64_t> codes, std::uint32_t begin,
-                          std::uint32_t end, std::uint64_t code, Count&& count = {}) {
+                          std::uint32_t end, std::uint64_t code, Count& count) {
   for (std::uint32_t size = end - begin; size > 0;) {
     const std::uint32_t half = (size + 1) / 2;
     count.range(1);
@@ -80,8 +74,8 @@ class SortedList {
   /// from the previous one by exponential, then binary search (paper §4.4, lemma A.2). The number
   /// of comparisons grows with the gaps between the new entries, not with the length of the list;
   /// every entry is shifted once, within the same arrays.
-  template <class Count = Uncounted>
-  void insert(std::span<const CodedSlot> incoming, Count&& count = {}) {
+  template <class Count>
+  void insert(std::span<const CodedSlot> incoming, Count& count) {
     std::size_t end = size();  // of the entries that have not been shifted
     std::size_t to = end + incoming.size();
     growTo(slots_, to);

@@ -20,29 +20,40 @@ class WideBoxes {
   [[nodiscard]] std::span<const std::uint32_t> slots() const { return slots_; }
 
   /// Pairs among the wide boxes; `most` limits the total number of `pairs`.
-  void pairsAmong(std::span<const Box> boxes, std::vector<BoxPair>& pairs, std::size_t most) const {
+  template <class Count>
+  void pairsAmong(std::span<const Box> boxes, std::vector<BoxPair>& pairs, Count& count,
+                  std::size_t most) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       if (pairs.size() > most) throw TooManyPairs();
       for (std::size_t j = i + 1; j < slots_.size(); ++j)
-        if (overlaps(boxes[slots_[i]], boxes[slots_[j]]))
+        if (test(boxes[slots_[i]], boxes[slots_[j]], count))
           pairs.push_back(orderedPair(BoxId(slots_[i]), BoxId(slots_[j])));
     }
   }
 
   /// Pairs of another box with the wide ones.
+  template <class Count>
   void pairsWith(std::span<const Box> boxes, const Box& box, std::uint32_t slot,
-                 std::vector<BoxPair>& pairs) const {
+                 std::vector<BoxPair>& pairs, Count& count) const {
     for (const std::uint32_t wide : slots_)
-      if (overlaps(box, boxes[wide])) pairs.push_back(orderedPair(BoxId(slot), BoxId(wide)));
+      if (test(box, boxes[wide], count)) pairs.push_back(orderedPair(BoxId(slot), BoxId(wide)));
   }
 
   /// The wide boxes that overlap `box`.
-  void overlapsWith(std::span<const Box> boxes, const Box& box, std::vector<BoxId>& found) const {
+  template <class Count>
+  void overlapsWith(std::span<const Box> boxes, const Box& box, std::vector<BoxId>& found,
+                    Count& count) const {
     for (const std::uint32_t wide : slots_)
-      if (overlaps(box, boxes[wide])) found.push_back(BoxId(wide));
+      if (test(box, boxes[wide], count)) found.push_back(BoxId(wide));
   }
 
  private:
+  template <class Count>
+  static bool test(const Box& a, const Box& b, Count& count) {
+    count.test(6);
+    return overlaps(a, b);
+  }
+
   std::vector<std::uint32_t> slots_;
 };
 

@@ -47,6 +47,10 @@ Attributes SearchCollider::attributes() {
       attribute("numReinit", &C::numReinit, "Number of searches that started anew.", readonly),
       attribute("fastestBodyMaxDist", &C::fastestBodyMaxDist,
                 "The integrator's record of displacement: at 1 or more a search is due."),
+      attribute("countComparisons", &C::countComparisons,
+                "Count comparisons as the paper does (section 6); no cost if False."),
+      attribute("comparisons", &C::comparisons, "Comparisons of the last search.", readonly),
+      attribute("comparisonsTotal", &C::comparisonsTotal, "Comparisons of all searches.", readonly),
       attribute("searched", &C::searched,
                 "Number of bodies with new bounds and new neighbours in the last search; all "
                 "others kept theirs.",

@@ -79,7 +79,8 @@ void SearchCollider::searchAll(int threads) {
 bool SearchCollider::mayKeep() const {
   return keptWith_ == choices() && search_ && strideActive_ && !doSort &&
          !scene->interactions->dirty && !scene->isPeriodic && !periodic_ && verletDist > 0 &&
-         targetInterv > 0 && interactions_.madeByOthers(*scene) <= 0;
+         targetInterv > 0 && searchCounts_ == countComparisons &&
+         interactions_.madeByOthers(*scene) <= 0;
 }
 
 /// Returns false if so many bodies have changed that all must be searched.
@@ -95,9 +96,12 @@ bool SearchCollider::searchChanged(int threads) {
   // The interactions of erased bodies were erased with them. If any other interaction was erased,
   // it may have to be created again by a full search.
   if (interactions_.madeByOthers(*scene) < 0 && !someErased()) return false;
+  const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
   search_->change(boxes_.boxes(), boxes_.changed());
   findPairs([this] { search_->findPairsOfChanged(near_.pairs); });
+  comparisons = static_cast<long>(search_->comparisons().total() - before.total());
+  comparisonsTotal += comparisons;
   searched = static_cast<long>(boxes_.changed().size());
   const auto& changed = boxes_.changed();
   const auto isChanged = [&](BoxId id) {
@@ -204,15 +208,22 @@ Vector3r SearchCollider::cellSpan() const {
 }
 
 void SearchCollider::startSearchIfNeeded() {
-  if (search_ && !doSort && !scene->interactions->dirty && periodic_ == scene->isPeriodic) return;
-  if (!search_)
-    search_ = std::make_unique<IncrementalSearch>(
-        method_ == SearchMethod::kLebesgue ? SearchMethod::kFastest : method_);
+  if (search_ && searchCounts_ == countComparisons && !doSort && !scene->interactions->dirty &&
+      periodic_ == scene->isPeriodic)
+    return;
+  if (!search_ || searchCounts_ != countComparisons) {
+    // The paper's counts are those of the method itself.
+    const bool isFree = method_ == SearchMethod::kLebesgue && !countComparisons;
+    search_ = std::make_unique<IncrementalSearch>(isFree ? SearchMethod::kFastest : method_,
+                                                  countComparisons);
+    searchCounts_ = countComparisons;
+  }
   search_->clear();
   ++numReinit;
 }
 
 void SearchCollider::updateSearch(int threads) {
+  const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
   if (scene->isPeriodic) {
     const Vector3r& size = scene->cell->getSize();
@@ -225,6 +236,8 @@ void SearchCollider::updateSearch(int threads) {
     search_->update(boxes_.boxes());
     findPairs([this] { search_->findPairs(near_.pairs); });
   }
+  comparisons = static_cast<long>(search_->comparisons().total() - before.total());
+  comparisonsTotal += comparisons;
 }
 
 /// FESolver searches these itself.

@@ -56,6 +56,9 @@ class SearchCollider : public yade::Collider {
   bool trueHalo = true;
   bool adaptInterval = true;
   double interval = 0;  // steps; 0: targetInterv
+  bool countComparisons = false;
+  long comparisons = 0;
+  long comparisonsTotal = 0;
   long searched = 0;
   long searchedTotal = 0;
   yade::shared_ptr<yade::NewtonIntegrator> newton;
@@ -97,6 +100,7 @@ class SearchCollider : public yade::Collider {
 
   SearchMethod method_;
   std::unique_ptr<IncrementalSearch> search_;
+  bool searchCounts_ = false;
   /// Settings with which the stored interactions were found.
   struct Choices {
     bool trueHalo;

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "core/comparisons.hpp"
 #include "curve/numbering.hpp"
-#include "figure14/comparisons.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
 #include "search/filter_list.hpp"
@@ -46,13 +46,14 @@ std::vector<std::uint64_t> codesOfKind(std::mt19937_64& random, int kind, std::s
 
 TEST(CodeDirectory, FindsWhatBinarySearchFinds) {
   std::mt19937_64 random(3);
+  CountNothing nothing;
   for (int k = 0; k < 2000; ++k) {
     const auto codes = codesOfKind(random, k % 5, random() % 400);
     CodeDirectory directory;
     directory.build(codes);
     const auto check = [&](std::uint64_t code) {
       const auto expected = std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
-      ASSERT_EQ(directory.lowerBound(code), expected);
+      ASSERT_EQ(directory.lowerBound(code, nothing), expected);
     };
     check(0);
     check(~std::uint64_t{0});
@@ -115,7 +116,8 @@ TEST(SortedList, RadixSortIsASort) {
 /// A list with the given entries, which are sorted.
 SortedList listOf(const std::vector<CodedSlot>& entries) {
   SortedList list;
-  list.insert(entries);
+  CountNothing uncounted;
+  list.insert(entries, uncounted);
   return list;
 }
 
@@ -139,7 +141,8 @@ TEST(SortedList, InsertionIsASortOfBoth) {
     std::sort(all.begin(), all.end());
     SortedList list = listOf(entries);
     ASSERT_TRUE(same(list, entries));
-    list.insert(incoming);
+    CountNothing nothing;
+    list.insert(incoming, nothing);
     ASSERT_TRUE(same(list, all));
   }
 }
@@ -192,6 +195,7 @@ std::vector<std::uint64_t> randomCodes(std::mt19937_64& random, std::size_t coun
 
 TEST(RowBegins, AreLowerBounds) {
   std::mt19937_64 random(3);
+  CountNothing uncounted;
   for (int list = 0; list < 2000; ++list) {
     const std::uint64_t most = 1 + random() % 5000;
     const auto codes = randomCodes(random, random() % 300, most);
@@ -201,7 +205,7 @@ TEST(RowBegins, AreLowerBounds) {
       code = random() % 4 ? code + random() % 40 : random() % (most + 10);
       const int row = static_cast<int>(random() % 20);
       const auto wanted = std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
-      ASSERT_EQ(places.lowerBound(row, codes, code), wanted) << list;
+      ASSERT_EQ(places.lowerBound(row, codes, code, uncounted), wanted) << list;
     }
   }
 }

@@ -50,7 +50,7 @@ TEST(SearchProperty, SamePairsAsBruteForce) {
     RandomScene scene(seed);
     const auto brute = makeSearch(SearchMethod::kBruteForce);
     std::vector<std::unique_ptr<ContactSearch>> searches;
-    for (const SearchMethod method : kMethods) searches.push_back(makeSearch(method));
+    for (const SearchMethod method : kMethods) searches.push_back(makeSearch(method, seed % 2));
     for (int step = 0; step < 4; ++step) {
       const std::vector<BoxPair> expected = sortedPairs(*brute, scene.boxes());
       found += expected.size();
@@ -156,7 +156,7 @@ std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vecto
 /// The pairs that a caller keeps from one change to the next.
 class KeptPairs {
  public:
-  explicit KeptPairs(SearchMethod method) : search_(method) {}
+  explicit KeptPairs(SearchMethod method, bool counts) : search_(method, counts) {}
 
   void look(const std::vector<Box>& before, const std::vector<Box>& now) {
     std::vector<BoxPair> found;
@@ -198,7 +198,7 @@ TEST(IncrementalSearch, SamePairsAsBruteForceWhileBoxesMoveComeAndGo) {
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {
     RandomScene scene(seed);
     std::vector<KeptPairs> kept;
-    for (const SearchMethod method : kMethods) kept.emplace_back(method);
+    for (const SearchMethod method : kMethods) kept.emplace_back(method, seed % 2);
     std::vector<Box> before;
     for (int step = 0; step < 6; ++step) {
       // Another array each time: what was given before may be gone.
@@ -260,6 +260,31 @@ TEST(IncrementalSearch, SameOrderForAnyNumberOfThreads) {
     return pairs;
   });
   EXPECT_GT(found, 10000U);
+}
+
+/// Comparisons of changes by one box among `count`.
+double comparisonsOfOneMove(std::size_t count) {
+  std::mt19937_64 random(5);
+  std::vector<Box> boxes = evenBoxes(count, random);
+  IncrementalSearch search(SearchMethod::kLebesgue, true);
+  search.update(boxes);
+  std::vector<BoxPair> pairs;
+  search.findPairs(pairs);
+  const auto before = search.comparisons().total();
+  constexpr int kMoves = 20;
+  for (int move = 0; move < kMoves; ++move) {
+    const BoxId one(random() % count);
+    boxes[one.value].max[1] += .1;
+    search.change(boxes, {&one, 1});
+    search.findPairsOfChanged(pairs);
+  }
+  return static_cast<double>(search.comparisons().total() - before) / kMoves;
+}
+
+TEST(IncrementalSearch, OneMoveCostsNoMoreAmongMany) {
+  // Without `count`, a search of 4·10⁴ boxes takes 4·10⁴ looks at least.
+  EXPECT_LT(comparisonsOfOneMove(40000), 1000);
+  EXPECT_LT(comparisonsOfOneMove(40000), 2 * comparisonsOfOneMove(1000) + 100);
 }
 
 TEST(IncrementalSearch, SortsInWhatHasWaitedForLong) {
