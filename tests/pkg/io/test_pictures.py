@@ -358,12 +358,12 @@ def test_filmRunsTheScene(folder):
         assert film.n_frames == 4
 
 
-def test_importCostsNoPlotting(folder):
-    """Scripts that draw nothing do not wait for Matplotlib and meshio."""
+def test_importNeedsNoLibraries(folder):
+    """Scripts that draw and read nothing neither wait for them nor need their packages."""
     script = written(folder, 'script.py', '''import sys
 before = set(sys.modules)
 import yadefrag
 new = {name.partition(".")[0] for name in set(sys.modules) - before}
-print("@", sorted({"matplotlib", "meshio", "PIL"} & new))
+print("@", sorted({"matplotlib", "meshio", "PIL", "scipy", "shapely", "tqdm"} & new))
 ''')
     assert '@ []' in inYade(script).stdout

@@ -282,10 +282,9 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
         raise ValueError('call is %s with every=%s: give a function and the number of steps between its '
                          'calls.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
-    import tqdm  # only if something runs
     omega = wrapper.Omega()
     done, begin = 0, stepsDone()
-    bar = tqdm.tqdm(total=steps, unit='step', disable=None)  # without one unless standard error is a terminal
+    bar = _bar(steps)
     try:
         portion = 1
         while done < steps:
@@ -294,8 +293,9 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
                 start = time.perf_counter()
                 part, isPaused = runPart(now)
                 done += part
-                bar.set_postfix_str('t = %.4g s' % omega.time, refresh=False)
-                bar.update(done - bar.n)
+                if bar is not None:
+                    bar.set_postfix_str('t = %.4g s' % omega.time, refresh=False)
+                    bar.update(done - bar.n)
             if call is not None and every and part and done % every == 0:
                 call()
             if isPaused:
@@ -304,12 +304,22 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
             seconds = max(time.perf_counter() - start, 1e-9)
             portion = max(1, min(2 * now, int(.1 * now / seconds)))
     except KeyboardInterrupt:
-        bar.close()
+        if bar is not None:
+            bar.close()
         print('Stopped after %d of %d steps, at %.6g s.' % (stepsDone() - begin, steps, omega.time), file=sys.stderr)
         raise
     finally:
-        bar.close()
+        if bar is not None:
+            bar.close()
     return done
+
+
+def _bar(steps):
+    """None unless standard error is a terminal: a run on a server needs no tqdm."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        return None
+    import tqdm
+    return tqdm.tqdm(total=steps, unit='step')
 
 
 def runPart(steps: int) -> tuple[int, bool]:

@@ -7,10 +7,9 @@ import math
 from collections.abc import Sequence
 
 import numpy
-from scipy.spatial import cKDTree
 
 from yadefrag.arguments import shown, shownPath
-from yadefrag.messages import shapely, treeOf
+from yadefrag.messages import needed, shapely, treeOf
 
 Region = tuple[numpy.ndarray, list[numpy.ndarray]]
 _WORKS = 'reading outlines works'
@@ -90,7 +89,8 @@ def _partners(chains, gap):
         return {}
     places = numpy.array([chains[i][side] for i, side in ends])
     found = {}
-    for number, near in enumerate(cKDTree(places).query_ball_point(places, gap)):
+    tree = needed('scipy.spatial', 'python3-scipy', _WORKS).cKDTree(places)
+    for number, near in enumerate(tree.query_ball_point(places, gap)):
         if len(near) != 2:
             words = 'ends at %s where no other one begins' if len(near) == 1 else \
                 'ends at %s together with more than one other'
