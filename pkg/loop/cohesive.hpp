@@ -14,10 +14,7 @@ class Cohesive {
   using Functor = yade::Law2_ScGeom6D_CohFrictPhys_CohesionMoment;
   using Geometry = yade::Ig2_Sphere_Sphere_ScGeom6D;
   using Phys = yade::CohFrictPhys;
-  struct Force : ContactForce {
-    FourLanes moment;
-    bool hasMoment;
-  };
+  using Force = ForceAndMoment;
   static constexpr std::string_view kProperties =
       "N4yade40Ip2_CohFrictMat_CohFrictMat_CohFrictPhysE";
   static constexpr bool kUsesMasses = false;
@@ -95,20 +92,16 @@ class Cohesive {
 
   template <class View>
   [[gnu::always_inline]] FourLanes momentOf(const View& view, double pressure, Phys& phys) const {
-    const ContactGeometry& geometry = view.geometry;
-    FourLanes twist, bend;
+    ElasticMoments moments;
     if (functor_.useIncrementalForm) {
-      const FourLanes spin = view.two.spin() - view.one.spin();
-      const FourLanes about = dot(geometry.normal, spin) * geometry.normal;
-      bend = turned(loadThree(phys.moment_bending.data()), geometry) -
-             phys.kr * ((spin - about) * scene_.dt);
-      twist =
-          turned(loadThree(phys.moment_twist.data()), geometry) - phys.ktw * (about * scene_.dt);
+      moments = ElasticMoments::of(view, phys.moment_bending.data(), phys.moment_twist.data(),
+                                   phys.kr, phys.ktw, scene_.dt);
     } else {
       const auto& rotation = static_cast<const yade::ScGeom6D&>(*view.contact.geom);
-      twist = (rotation.twist * phys.ktw) * geometry.normal;
-      bend = loadThree(rotation.bending.data()) * phys.kr;
+      moments = {loadThree(rotation.bending.data()) * phys.kr,
+                 (rotation.twist * phys.ktw) * view.geometry.normal};
     }
+    auto& [bend, twist] = moments;
     limitTo(phys.maxRollPl, pressure, bend), limitTo(phys.maxTwistPl, pressure, twist);
     storeThree(bend, phys.moment_bending.data()), storeThree(twist, phys.moment_twist.data());
     return twist + bend;

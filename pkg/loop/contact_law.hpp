@@ -58,6 +58,28 @@ inline const yade::IPhysFunctor* functorOf(
   return nullptr;
 }
 
+/// Force and, if `hasMoment`, moment (N m) on the second body; its opposite acts on the first one.
+struct ForceAndMoment : ContactForce {
+  FourLanes moment;
+  bool hasMoment;
+};
+
+/// Moments (N m) of a contact that turns with its bodies: `bend` and `twist` of the last step, and
+/// the increments by the stiffnesses (N m/rad) in this one.
+struct ElasticMoments {
+  FourLanes bend, twist;
+
+  template <class View>
+  [[gnu::always_inline]] static ElasticMoments of(const View& view, const double* bend,
+                                                  const double* twist, double bending,
+                                                  double twisting, double dt) {
+    const FourLanes spin = view.two.spin() - view.one.spin();
+    const FourLanes about = dot(view.geometry.normal, spin) * view.geometry.normal;
+    return {turned(loadThree(bend), view.geometry) - bending * ((spin - about) * dt),
+            turned(loadThree(twist), view.geometry) - twisting * (about * dt)};
+  }
+};
+
 using AnyMasses = std::pair<BodyMass, BodyMass> (*)();
 
 /// The formulas of one of YADE's laws, in the order of its operations, so that every bit is the

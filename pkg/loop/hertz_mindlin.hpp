@@ -47,10 +47,7 @@ class HertzMindlin {
   using Functor = yade::Law2_ScGeom_MindlinPhys_Mindlin;
   using Geometry = yade::Ig2_Sphere_Sphere_ScGeom;
   using Phys = yade::MindlinPhys;
-  struct Force : ContactForce {
-    FourLanes moment;
-    bool hasMoment;
-  };
+  using Force = ForceAndMoment;
   static constexpr std::string_view kProperties = "N4yade33Ip2_FrictMat_FrictMat_MindlinPhysE";
   static constexpr bool kUsesMasses = true;
   static constexpr std::size_t kBytes = offsetof(Phys, prevU);
@@ -161,13 +158,8 @@ class HertzMindlin {
 
   template <class View>
   [[gnu::always_inline]] FourLanes momentOf(const View& view, double pressure, Phys& phys) const {
-    const ContactGeometry& geometry = view.geometry;
-    const FourLanes spin = view.two.spin() - view.one.spin();
-    const FourLanes about = dot(geometry.normal, spin) * geometry.normal;
-    FourLanes bend = turned(loadThree(phys.momentBend.data()), geometry) -
-                     phys.kr * ((spin - about) * scene_.dt);
-    const FourLanes twist =
-        turned(loadThree(phys.momentTwist.data()), geometry) - phys.ktw * (about * scene_.dt);
+    auto [bend, twist] = ElasticMoments::of(view, phys.momentBend.data(), phys.momentTwist.data(),
+                                            phys.kr, phys.ktw, scene_.dt);
     const double limit = phys.maxBendPl * pressure, size = norm(bend);
     if (limit > 0 && size > limit) bend *= limit / size;
     storeThree(bend, phys.momentBend.data()), storeThree(twist, phys.momentTwist.data());

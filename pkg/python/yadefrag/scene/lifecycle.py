@@ -284,40 +284,35 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
     requireNoStep('runSteps')
     omega = wrapper.Omega()
     done, begin = 0, stepsDone()
-    bar = _bar(steps)
     try:
-        portion = 1
-        while done < steps:
-            with wholeSteps():
-                now = min(portion, steps - done, every - done % every if every else steps)
-                start = time.perf_counter()
-                part, isPaused = runPart(now)
-                done += part
-                if bar is not None:
-                    bar.set_postfix_str('t = %.4g s' % omega.time, refresh=False)
-                    bar.update(done - bar.n)
-            if call is not None and every and part and done % every == 0:
-                call()
-            if isPaused:
-                break
-            # Portions of about a tenth of a second: the bar moves between them.
-            seconds = max(time.perf_counter() - start, 1e-9)
-            portion = max(1, min(2 * now, int(.1 * now / seconds)))
+        with _bar(steps) as bar:
+            portion = 1
+            while done < steps:
+                with wholeSteps():
+                    now = min(portion, steps - done, every - done % every if every else steps)
+                    start = time.perf_counter()
+                    part, isPaused = runPart(now)
+                    done += part
+                    if bar is not None:
+                        bar.set_postfix_str('t = %.4g s' % omega.time, refresh=False)
+                        bar.update(done - bar.n)
+                if call is not None and every and part and done % every == 0:
+                    call()
+                if isPaused:
+                    break
+                # Portions of about a tenth of a second: the bar moves between them.
+                seconds = max(time.perf_counter() - start, 1e-9)
+                portion = max(1, min(2 * now, int(.1 * now / seconds)))
     except KeyboardInterrupt:
-        if bar is not None:
-            bar.close()
         print('Stopped after %d of %d steps, at %.6g s.' % (stepsDone() - begin, steps, omega.time), file=sys.stderr)
         raise
-    finally:
-        if bar is not None:
-            bar.close()
     return done
 
 
 def _bar(steps):
-    """None unless standard error is a terminal: a run on a server needs no tqdm."""
+    """Of None unless standard error is a terminal: a run on a server needs no tqdm."""
     if sys.stderr is None or not sys.stderr.isatty():
-        return None
+        return contextlib.nullcontext()
     import tqdm
     return tqdm.tqdm(total=steps, unit='step')
 
