@@ -196,6 +196,52 @@ class Ig2_Sphere_Sphere_ScGeom6D : public Ig2_Sphere_Sphere_ScGeom {
   ~Ig2_Sphere_Sphere_ScGeom6D() override;
 };
 
+class Ig2_Facet_Sphere_ScGeom : public IGeomFunctor {
+  const Real hertzFac = 1e8;
+
+ public:
+  Real shrinkFactor;
+  bool hertzian;
+  Ig2_Facet_Sphere_ScGeom() = delete;
+  ~Ig2_Facet_Sphere_ScGeom() override;
+};
+
+class Ig2_Facet_Sphere_ScGeom6D : public Ig2_Facet_Sphere_ScGeom {
+ public:
+  Ig2_Facet_Sphere_ScGeom6D() = delete;
+  ~Ig2_Facet_Sphere_ScGeom6D() override;
+};
+
+class Ig2_Wall_Sphere_ScGeom : public IGeomFunctor {
+  const Real hertzFac = 1e8;
+
+ public:
+  bool noRatch;
+  bool hertzian;
+  Ig2_Wall_Sphere_ScGeom() = delete;
+  ~Ig2_Wall_Sphere_ScGeom() override;
+};
+
+class Ig2_Box_Sphere_ScGeom : public IGeomFunctor {
+#if YADEFRAG_YADE >= 202502
+  const Real hertzFac = 1e8;
+#endif
+
+ public:
+  Real interactionDetectionFactor;
+#if YADEFRAG_YADE >= 202502
+  bool hertzian;
+#endif
+  Ig2_Box_Sphere_ScGeom() = delete;
+  ~Ig2_Box_Sphere_ScGeom() override;
+};
+
+class Ig2_Box_Sphere_ScGeom6D : public Ig2_Box_Sphere_ScGeom {
+ public:
+  Ig2_Box_Sphere_ScGeom6D() = delete;
+  ~Ig2_Box_Sphere_ScGeom6D() override;
+};
+
 class IPhysFunctor : public Functor, public PhysCalls {
  public:
   IPhysFunctor() = delete;

@@ -53,6 +53,8 @@
 #include <pkg/dem/ElasticContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/HertzMindlin.hpp>
+#include <pkg/dem/Ig2_Box_Sphere_ScGeom.hpp>
+#include <pkg/dem/Ig2_Facet_Sphere_ScGeom.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>

@@ -29,6 +29,7 @@ struct PairRows {
   yade::Body::id_t id1 = yade::Body::ID_NONE;  // of the body of row1
   std::uint32_t row1 = 0;
   std::uint32_t row2 = 0;
+  bool isOfSpheres = true;
 
   /// YADE's dispatchers may swap the bodies of a contact.
   [[nodiscard]] bool isInOrder(const yade::Interaction& contact) const {
@@ -52,7 +53,8 @@ struct PairRows {
     requestLine(first), requestLine(first + 64), requestLine(first + 128);
     for (std::size_t line = 0; line < bytes; line += 64) requestLine(second + line);
   }
-  void note(const yade::Interaction& contact, bool isComputed) {
+  void note(const yade::Interaction& contact, bool isComputed, bool areSpheres) {
+    isOfSpheres = areSpheres;
     geom = isComputed ? static_cast<yade::ScGeom*>(contact.geom.get()) : nullptr;
     phys = isComputed ? static_cast<yade::FrictPhys*>(contact.phys.get()) : nullptr;
   }

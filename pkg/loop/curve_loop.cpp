@@ -190,8 +190,8 @@ template <class Law>
     return std::pair(rows_.mass(pair.row1), rows_.mass(pair.row2));
   };
   const auto turns = [&]() __attribute__((always_inline)) { return rows_.orientations(pair); };
-  return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],
-                                       rows_[pair.row2], masses, turns, evaluation.force);
+  return evaluation.step.evaluateKnown(*contact, pair, rows_[pair.row1], rows_[pair.row2], masses,
+                                       turns, evaluation.force);
 }
 
 template <class Law>
@@ -207,7 +207,7 @@ bool ContactLoop::evaluateOther(Evaluation<Law>& evaluation, const Contact& cont
       threads == 1 && evaluation.step.computesForces() && evaluation.step.isForYade(*contact);
   const bool isForce = isGiven ? rows_.withSums(*scene, *contact, call) : call();
   pair.matchOrder(*contact);
-  pair.note(*contact, evaluation.step.isKnown(*contact));
+  pair.note(*contact, evaluation.step.isKnown(*contact), evaluation.step.areSpheres(*contact));
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
   return isForce;
 }

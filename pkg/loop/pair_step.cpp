@@ -25,6 +25,8 @@ PairFunctors::PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene,
       spheres_(spheres),
       properties_(properties),
       law_(law),
+      shapes_(*loop.geomDispatcher,
+              spheres && typeid(*spheres) == typeid(yade::Ig2_Sphere_Sphere_ScGeom6D)),
       hasRotations_(spheres && typeid(*spheres) == typeid(yade::Ig2_Sphere_Sphere_ScGeom6D)) {
   for (const auto& callback : loop.callbacks) {
     callback->scene = &scene;
@@ -42,13 +44,18 @@ bool PairFunctors::update(const Contact& contact, const BodyRow& one, const Body
                           bool changesProperties, long& fastGeometries) const {
   if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return false;
   const auto id1 = contact->id1;
+  const auto hasOtherShape = [&] {
+    if (areSpheres(*contact)) return std::isnan(one.radius() + two.radius());
+    return shapes_.know(contact->functorCache.geom.get()) && !isOfShape(*contact, two);
+  };
+  if (hasOtherShape()) {
+    contact->reset();  // a script has changed it: the next step chooses a functor for it
+    return false;
+  }
   // A clump has no sphere of its own.
-  if (!isKnownPair(*contact)) {
+  if (!areSpheres(*contact)) {
     if (bodyOf(id1).isClump() || bodyOf(contact->id2).isClump()) return false;
     if (!chooseGeometry(*contact)) return false;
-  } else if (std::isnan(one.radius() + two.radius())) {
-    contact->reset();  // a sphere got another shape: the next step chooses a functor for it
-    return false;
   }
   const bool isSwapped = contact->id1 != id1;
   const bool wasReal = contact->isReal();
@@ -66,11 +73,17 @@ void PairFunctors::callBack(const Contact& contact) const {
 }
 
 bool PairFunctors::isFarApart(const yade::Interaction& contact) const {
-  if (!isKnownPair(contact) || contact.isReal()) return false;
+  if (contact.isReal()) return false;
   const auto& bodies = scene_.bodies->body;
   const yade::Body *const body1 = bodyAt(bodies, contact.id1), *const body2 =
                                                                    bodyAt(bodies, contact.id2);
   if (!BodyRows::hasMotion(body1) || !BodyRows::hasMotion(body2)) return false;
+  if (!areSpheres(contact)) {
+    if (!shapes_.know(contact.functorCache.geom.get())) return false;
+    BodyRow sphere;
+    BodyRows::read(*body2, sphere);
+    return isFarShape(contact, sphere);
+  }
   const auto placeOf = [](const yade::Body& body) {
     return loadThree(body.state->se3.position.data());
   };
@@ -79,6 +92,12 @@ bool PairFunctors::isFarApart(const yade::Interaction& contact) const {
   };
   return areApart(placeOf(*body2) + shiftOf(contact).distance - placeOf(*body1), radiusOf(*body1),
                   radiusOf(*body2));
+}
+
+bool PairFunctors::isFarShape(const yade::Interaction& contact, const BodyRow& sphere) const {
+  return isOfShape(contact, sphere) &&
+         shapes_.areApart(contact.functorCache.geom.get(), bodyOf(contact.id1), sphere,
+                          shiftOf(contact));
 }
 
 ImageShift PairFunctors::periodicShift(const yade::Interaction& contact) const {
@@ -104,12 +123,14 @@ bool PairFunctors::chooseGeometry(yade::Interaction& contact) const {
 // False: they do not touch.
 bool PairFunctors::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
                                     long& fastGeometries) const {
-  if (isKnownPair(*contact)) {
-    if (!contact->isReal() && areApart(*contact, one, two)) return false;
+  const bool areOfSpheres = areSpheres(*contact);
+  if (areOfSpheres || shapes_.know(contact->functorCache.geom.get())) {
+    if (isFarApart(*contact, one, two)) return false;
     if (contact->geom && !hasRotations_) {
       ++fastGeometries;
       auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
-      updateGeometry(geom, one, two, shiftOf(*contact));
+      areOfSpheres ? updateGeometry(geom, one, two, shiftOf(*contact))
+                   : updateShape(*contact, geom, one, two, shiftOf(*contact));
       return true;
     }
   }

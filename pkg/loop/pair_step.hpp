@@ -7,6 +7,7 @@
 
 #include "loop/body_rows.hpp"
 #include "loop/contact_law.hpp"
+#include "loop/shape_contacts.hpp"
 
 namespace yadefrag {
 
@@ -21,9 +22,10 @@ class PairFunctors {
 
   using Contact = yade::shared_ptr<yade::Interaction>;
   /// What determines which contacts the loop computes.
-  using Functors = std::array<const void*, 3>;
+  using Functors = std::array<const void*, 6>;
   [[nodiscard]] Functors functors() const {
-    return isAllKnown_ ? Functors{spheres_, properties_, law_} : Functors{};
+    const auto& [facet, wall, box] = shapes_.functors();
+    return isAllKnown_ ? Functors{spheres_, properties_, law_, facet, wall, box} : Functors{};
   }
   /// False: YADE's functors compute all geometries.
   [[nodiscard]] bool computesGeometry() const { return spheres_ != nullptr; }
@@ -34,8 +36,13 @@ class PairFunctors {
   /// True: a contact whose geometry, physics and law are those that the loop computes.
   [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {
     const auto& cache = contact.functorCache;
-    return isAllKnown_ && cache.geom.get() == spheres_ && cache.phys.get() == properties_ &&
-           cache.constLaw.get() == law_ && contact.geom && contact.phys;
+    return isAllKnown_ && (cache.geom.get() == spheres_ || shapes_.know(cache.geom.get())) &&
+           cache.phys.get() == properties_ && cache.constLaw.get() == law_ && contact.geom &&
+           contact.phys;
+  }
+  /// True: of the functor for two spheres whose geometry the loop computes.
+  [[nodiscard]] bool areSpheres(const yade::Interaction& contact) const {
+    return spheres_ && contact.functorCache.geom.get() == spheres_;
   }
   /// True: a contact that has not begun and does not begin in this step. Reads less than
   /// `evaluate`; if it is false, nothing is known.
@@ -44,7 +51,8 @@ class PairFunctors {
   [[nodiscard]] [[gnu::always_inline]] bool isFarApart(const yade::Interaction& contact,
                                                        const BodyRow& one,
                                                        const BodyRow& two) const {
-    return isKnownPair(contact) && !contact.isReal() && areApart(contact, one, two);
+    if (contact.isReal()) return false;
+    return areSpheres(contact) ? areApart(contact, one, two) : isFarShape(contact, two);
   }
 
  protected:
@@ -73,6 +81,21 @@ class PairFunctors {
     geometry.write(geom);
     return geometry;
   }
+  /// True: a contact of a sphere and another shape whose geometry the loop computes.
+  [[nodiscard]] bool isOfShape(const yade::Interaction& contact, const BodyRow& sphere) const {
+    const auto* const functor = contact.functorCache.geom.get();
+    return shapes_.know(functor) && shapes_.isShapeOf(functor, bodyOf(contact.id1)) &&
+           !std::isnan(sphere.radius());
+  }
+  /// Of such a contact, which has begun.
+  [[gnu::noinline]] ContactGeometry updateShape(const yade::Interaction& contact,
+                                                yade::ScGeom& geom, const BodyRow& one,
+                                                const BodyRow& two, const ImageShift& shift) const {
+    const ContactGeometry geometry = shapes_.next(
+        contact.functorCache.geom.get(), bodyOf(contact.id1), geom, one, two, shift, scene_.dt);
+    geometry.write(geom);
+    return geometry;
+  }
   [[gnu::always_inline]] [[nodiscard]] ImageShift shiftOf(const yade::Interaction& contact) const {
     return scene_.isPeriodic ? periodicShift(contact) : ImageShift{};
   }
@@ -81,9 +104,6 @@ class PairFunctors {
   }
 
  private:
-  [[nodiscard]] bool isKnownPair(const yade::Interaction& contact) const {
-    return spheres_ && contact.functorCache.geom.get() == spheres_;
-  }
   // YADE's test, to the last bit.
   [[nodiscard]] [[gnu::always_inline]] bool areApart(const FourLanes& between, double radius1,
                                                      double radius2) const {
@@ -95,6 +115,8 @@ class PairFunctors {
     return areApart(two.position() + shiftOf(contact).distance - one.position(), one.radius(),
                     two.radius());
   }
+  [[nodiscard]] [[gnu::noinline]] bool isFarShape(const yade::Interaction& contact,
+                                                  const BodyRow& sphere) const;
   [[nodiscard]] [[gnu::noinline]] ImageShift periodicShift(const yade::Interaction& contact) const;
   bool chooseGeometry(yade::Interaction& contact) const;
   bool updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
@@ -107,6 +129,7 @@ class PairFunctors {
   const yade::Ig2_Sphere_Sphere_ScGeom* spheres_;
   const yade::IPhysFunctor* properties_;
   const yade::LawFunctor* law_;
+  ShapeContacts shapes_;
   bool hasRotations_;  // of its geometry: YADE's functor is called for one that is not known
   std::vector<std::pair<yade::IntrCallback*, yade::IntrCallback::FuncPtr>> callbacks_;
   bool removesUnseen_;
@@ -167,19 +190,28 @@ class PairStep : public PairFunctors {
   /// Evaluates a known contact of bodies that exist, in its order, as `evaluate` does. `turns()`
   /// gives their orientations.
   template <class Masses, class Turns>
-  [[gnu::always_inline]] bool evaluateKnown(yade::Interaction& contact, yade::ScGeom& geom,
-                                            yade::FrictPhys& phys, const BodyRow& one,
-                                            const BodyRow& two, const Masses& masses,
-                                            const Turns& turns, Force& force) const {
+  [[gnu::always_inline]] bool evaluateKnown(yade::Interaction& contact, const PairRows& pair,
+                                            const BodyRow& one, const BodyRow& two,
+                                            const Masses& masses, const Turns& turns,
+                                            Force& force) const {
     const ImageShift shift = shiftOf(contact);
-    const ContactGeometry geometry = updateGeometry(geom, one, two, shift);
+    ContactGeometry geometry;
+    if (pair.isOfSpheres) [[likely]] {
+      geometry = updateGeometry(*pair.geom, one, two, shift);
+    } else if (isOfShape(contact, two)) {
+      geometry = updateShape(contact, *pair.geom, one, two, shift);
+    } else {
+      contact.reset();  // as `update` does
+      return false;
+    }
     if constexpr (kUsesRotations<Law>) {
-      if (geometry_->updateRotations) {
-        updateRotations(static_cast<yade::ScGeom6D&>(geom), geometry.normal, turns(),
-                        geometry_->creep);
+      if (!pair.isOfSpheres || geometry_->updateRotations) {
+        updateRotations(static_cast<yade::ScGeom6D&>(*pair.geom), geometry.normal, turns(),
+                        pair.isOfSpheres && geometry_->creep);
       }
     }
-    return addLaw(contact, geometry, static_cast<Phys&>(phys), one, two, shift, masses, force);
+    return addLaw(contact, geometry, static_cast<Phys&>(*pair.phys), one, two, shift, masses,
+                  force);
   }
 
  private:

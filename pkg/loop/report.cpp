@@ -39,10 +39,12 @@ std::string ContactLoop::report() const {
     return "All contacts: by YADE's InteractionLoop, since loopOnSortedInteractions is set.";
   const yade::Scene& here = *yade::Omega::instance().getScene();
   const yade::Ig2_Sphere_Sphere_ScGeom* spheres = nullptr;
+  std::optional<ShapeContacts> shapes;
   const yade::LawFunctor* known = nullptr;
   std::function<const char*(const yade::IPhys&)> exception;
   withLaw(*this, here, [&]<class Law>(const typename Law::Functor* functor) {
     spheres = exactly<typename Law::Geometry>(geomDispatcher->functors);
+    shapes.emplace(*geomDispatcher, kUsesRotations<Law>);
     known = functor;
     if constexpr (kHasExceptions<Law>) {
       exception = [law = Law(*functor, here)](const yade::IPhys& phys) {
@@ -58,8 +60,9 @@ std::string ContactLoop::report() const {
     if (!contact->isReal() || !geom || !law) continue;
     std::string what = shapeOf(here, contact->id1);
     what += " and ", what += shapeOf(here, contact->id2);
-    what += geom.get() == spheres ? ": geometry by the loop" : ": geometry by YADE's ";
-    if (geom.get() != spheres) what += geom->getClassName();
+    const bool isFast = geom.get() == spheres || shapes->know(geom.get());
+    what += isFast ? ": geometry by the loop" : ": geometry by YADE's ";
+    if (!isFast) what += geom->getClassName();
     const bool isKnown = law.get() == known;
     const char* const reason = isKnown && exception ? exception(*contact->phys) : nullptr;
     what += isKnown && !reason ? ", force by the loop, as " : ", force by YADE's ";

@@ -98,26 +98,19 @@ struct ContactGeometry {
          shift.velocity;
 }
 
-/// The geometry after a step of `dt` (s), from the normal of the step before.
-[[gnu::always_inline]] inline ContactGeometry nextGeometry(const FourLanes& lastNormal,
-                                                           const BodyRow& one, const BodyRow& two,
-                                                           const ImageShift& shift, double dt,
-                                                           bool avoidsRatcheting) {
-  const FourLanes position1 = one.position(), position2 = two.position() + shift.distance;
+/// YADE's ScGeom::precompute: what follows, in a step of `dt` (s), from normal, point, depth and
+/// radii, and from the normal of the step before.
+[[gnu::always_inline]] inline void finishGeometry(const FourLanes& lastNormal, const BodyRow& one,
+                                                  const BodyRow& two, const ImageShift& shift,
+                                                  double dt, bool avoidsRatcheting,
+                                                  ContactGeometry& next) {
   const FourLanes spin1 = one.spin(), spin2 = two.spin();
-  ContactGeometry next;
-  next.radius1 = one.radius(), next.radius2 = two.radius();
-  const double radii = next.radius1 + next.radius2;
-  const FourLanes between = position2 - position1;
-  const double distance = norm(between);
-  next.normal = between / distance;
-  next.depth = radii - distance;
-  next.point = position1 + (next.radius1 - .5 * next.depth) * next.normal;
   next.turn = cross(lastNormal, next.normal);
   next.twist = dt * .5 * dot(lastNormal, spin1 + spin2) * lastNormal;
 
   FourLanes velocity;
   if (avoidsRatcheting) {
+    const double radii = next.radius1 + next.radius2;
     const double alpha = radii / (radii - next.depth);
     velocity = (two.velocity() - one.velocity()) * alpha +
                cross(spin2, -next.radius2 * next.normal) -
@@ -127,6 +120,22 @@ struct ContactGeometry {
   }
   velocity = velocity - dot(next.normal, velocity) * next.normal;
   next.shearing = velocity * dt;
+}
+
+/// The geometry of two spheres after a step of `dt` (s), from the normal of the step before.
+[[gnu::always_inline]] inline ContactGeometry nextGeometry(const FourLanes& lastNormal,
+                                                           const BodyRow& one, const BodyRow& two,
+                                                           const ImageShift& shift, double dt,
+                                                           bool avoidsRatcheting) {
+  const FourLanes position1 = one.position(), position2 = two.position() + shift.distance;
+  ContactGeometry next;
+  next.radius1 = one.radius(), next.radius2 = two.radius();
+  const FourLanes between = position2 - position1;
+  const double distance = norm(between);
+  next.normal = between / distance;
+  next.depth = next.radius1 + next.radius2 - distance;
+  next.point = position1 + (next.radius1 - .5 * next.depth) * next.normal;
+  finishGeometry(lastNormal, one, two, shift, dt, avoidsRatcheting, next);
   return next;
 }
 

@@ -1,0 +1,139 @@
+"""CurveLoop with spheres beside facets, walls and boxes: the bits of YADE's functors, for faces, edges and corners, shapes
+that move, and all options."""
+import numpy as np
+import pytest
+import yade.config
+import yade.wrapper as w
+from yade import utils
+from yade.minieigenHP import Quaternion, Vector3
+
+import scenes
+from law_twins import requireSame
+from scenes import O
+
+kShapes = dict(
+    facets=dict(facets=60),
+    boxes=dict(boxes=25),
+    walls=dict(walls=True),
+    all=dict(facets=30, boxes=10, walls=True),
+    periodic=dict(facets=30, boxes=10, periodic=True),
+    few=dict(facets=30, boxes=10, walls=True, apart=300),
+)
+kOptions = dict(
+    default={},
+    planes=dict(Facet=dict(hertzian=True), Wall=dict(hertzian=True, noRatch=False),
+                Box=dict(interactionDetectionFactor=1.3)),
+    tiles=dict(Facet=dict(shrinkFactor=.01)),
+)
+
+
+def scattered(facets=0, boxes=0, walls=False, periodic=False, apart=0, seed=1, material=None):
+    """Spheres of several sizes between shapes that move and turn; `apart`: spheres more, which touch nothing."""
+    scenes.clear()
+    chance = np.random.default_rng(seed)
+    O.materials.append(material or w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    if periodic:
+        O.periodic = True
+        O.cell.setBox(8, 8, 8)
+    places = chance.uniform(0, 8, (150, 3))
+    scenes.addSpheres(places, chance.choice([.2, .4, .7], len(places)), chance.normal(0, 5, (len(places), 3)), dynamic=True)
+    made = []
+    for _ in range(facets):
+        made.append(utils.facet((chance.uniform(0, 8, 3) + chance.uniform(-1.5, 1.5, (3, 3))).tolist()))
+    for _ in range(boxes):
+        made.append(utils.box(chance.uniform(0, 8, 3), chance.uniform(.2, 1, 3), fixed=True))
+        made[-1].state.ori = Quaternion(Vector3(*chance.normal(0, 1, 3)), chance.uniform(0, 6))
+    if walls:
+        made += [utils.wall(place, axis, sense) for axis in range(3) for place, sense in ((0, 1), (8, -1), (4, 0))]
+    O.bodies.append(made)
+    for body in made:
+        body.state.vel = Vector3(*chance.normal(0, 1, 3))
+        if not isinstance(body.shape, w.Wall):
+            body.state.angVel = Vector3(*chance.normal(0, 2, 3))
+    for number in range(apart):
+        O.bodies.append(utils.sphere((20 + number, 0, 0), .3, fixed=True))
+    O.dt = 1e-4
+
+
+def functors(suffix='', law=None, **options):
+    """`options`: attributes of the functors of a shape, by its name."""
+    names = ['Facet', 'Box'] if suffix else ['Facet', 'Wall', 'Box']
+    geometry = [getattr(w, 'Ig2_Sphere_Sphere_ScGeom' + suffix)(),
+                *(getattr(w, 'Ig2_%s_Sphere_ScGeom%s' % (name, suffix))(**options.get(name, {})) for name in names)]
+    if law:
+        return geometry, [law[0]()], [law[1]()]
+    return geometry, [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
+
+
+def ofShapes():
+    """Contacts of a sphere with another shape."""
+    return [i for i in O.interactions if not isinstance(O.bodies[i.id1].shape, w.Sphere)]
+
+
+@pytest.mark.parametrize('options', kOptions)
+@pytest.mark.parametrize('shapes', kShapes)
+def test_bits(shapes, options):
+    settings = dict(kShapes[shapes])
+    loop = requireSame(lambda: functors(**kOptions[options]), 400, build=scattered, **settings)
+    real, others = O.interactions.countReal(), ofShapes()
+    assert len(others) > 10
+    assert loop.fastForces == real
+    # Tiles that shrink are left to YADE's functor; it computes the first geometry of each contact, and a distant box
+    # is a contact that begins and ends in each step.
+    tiles = sum(isinstance(O.bodies[i.id1].shape, w.Facet) for i in others) if options == 'tiles' else 0
+    assert 0 <= real - tiles - loop.fastGeometries < (15 if options == 'planes' else 6)
+
+
+@pytest.mark.parametrize('seed', range(2, 12))
+def test_randomScenes(seed):
+    chance = np.random.default_rng(seed)
+    options = dict(Facet=dict(hertzian=bool(chance.integers(2))),
+                   Wall=dict(hertzian=bool(chance.integers(2)), noRatch=bool(chance.integers(2))),
+                   Box=dict(interactionDetectionFactor=chance.choice([1, 1.1])))
+    if yade.config.version >= '2025.2':
+        options['Box']['hertzian'] = bool(chance.integers(2))
+    loop = requireSame(lambda: functors(**options), 200, build=scattered, seed=seed, threads=1 + seed % 2,
+                       **kShapes[list(kShapes)[seed % len(kShapes)]])
+    assert len(ofShapes()) > 5 and loop.fastForces == O.interactions.countReal()
+
+
+@pytest.mark.parametrize('law', ['viscous', 'cohesive'])
+def test_otherLaws(law):
+    """Also contacts whose geometry has rotations."""
+    if law == 'viscous':
+        loop = requireSame(lambda: functors(law=(w.Ip2_ViscElMat_ViscElMat_ViscElPhys, w.Law2_ScGeom_ViscElPhys_Basic)), 400,
+                           lambda: w.ViscElMat(kn=1e7, ks=5e6, cn=3e4, cs=2e4, density=2000, frictionAngle=.4),
+                           build=scattered, **kShapes['all'])
+    else:
+        loop = requireSame(lambda: functors('6D', (w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+                                                   w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment)), 400,
+                           lambda: w.CohFrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4, isCohesive=True,
+                                                 normalCohesion=1e5, shearCohesion=1e5, momentRotationLaw=True),
+                           build=scattered, facets=30, boxes=10)
+    isKnown = law == 'viscous' or yade.config.version < '2025'
+    assert loop.fastForces == (O.interactions.countReal() if isKnown else 0) and len(ofShapes()) > 10
+
+
+def test_shapesThatChange():
+    """A facet that a script makes smaller, one that it removes; a sphere that becomes a facet ends its contacts."""
+    def change(part):
+        body = O.bodies[150 + part]
+        corners = [corner * .8 for corner in body.shape.vertices]
+        body.shape.setVertices(*corners)
+        O.bodies.erase(160 + part)
+        O.bodies[part].shape.radius *= .9
+    loop = requireSame(functors, 400, build=scattered, change=change, **kShapes['all'])
+    assert loop.fastForces >= O.interactions.countReal() > 100
+    touching = ofShapes()[0]
+    first, second = touching.id1, touching.id2
+    O.bodies[first].shape = w.Wall(axis=2)
+    O.step()
+    assert not O.interactions.has(first, second) or not O.interactions[first, second].isReal
+
+
+def test_report():
+    loop = requireSame(lambda: functors(**kOptions['tiles']), 400, build=scattered, **kShapes['all'])
+    lines = loop.report().splitlines()
+    assert any('Box and Sphere: geometry by the loop, force by the loop' in line for line in lines)
+    assert any('Wall and Sphere: geometry by the loop' in line for line in lines)
+    assert any("Facet and Sphere: geometry by YADE's Ig2_Facet_Sphere_ScGeom" in line for line in lines)
