@@ -170,6 +170,17 @@ class Wall : public Shape {
   ~Wall() override;
 };
 
+class Clump : public Shape {
+ public:
+  using MemberMap = std::map<int, Se3r>;
+  MemberMap members;
+#if YADEFRAG_YADE < 202502
+  vector<int> ids;
+#endif
+  Clump() = delete;
+  ~Clump() override;
+};
+
 class Body : public Serializable {
  public:
   using id_t = int;

@@ -66,13 +66,13 @@ class NewtonIntegrator : public FieldApplier {
   Vector3r gravity;
   Real maxVelocitySq;
   bool exactAsphericalRot;
-
- private:
-  // Since 2025: rotAlgorithm, normalizeEvery, niterOmelyan1998. Before: padding.
-  unsigned char rotation_[yadefrag::layoutBytes("NewtonIntegrator", "prevVelGrad") -
-                          yadefrag::layoutBytes("NewtonIntegrator", "exactAsphericalRot") - 1];
-
+#if YADEFRAG_YADE >= 202502
  public:
+  enum class RotAlgorithm { delValle2023 = 1, Omelyan1998 = 2, Fincham1992 = 3 };
+  RotAlgorithm rotAlgorithm;
+  int normalizeEvery;
+  int niterOmelyan1998;
+#endif
   Matrix3r prevVelGrad;
   Vector3r prevCellSize;
   bool warnNoForceReset;

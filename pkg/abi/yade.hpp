@@ -23,6 +23,7 @@
 #include <core/BodyContainer.hpp>
 #include <core/Bound.hpp>
 #include <core/Cell.hpp>
+#include <core/Clump.hpp>
 #include <core/Dispatcher.hpp>
 #include <core/Dispatching.hpp>
 #include <core/EnergyTracker.hpp>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <typeinfo>
 
 #include "abi/helpers.hpp"
 #include "core/instruction_set.hpp"
@@ -58,26 +59,99 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   step.spinChange = FourLanes{-turn(1, 2), turn(0, 2), -turn(0, 1), 0};
 }
 
-[[gnu::always_inline]] inline bool MotionIntegrator::isOurs(const yade::Body& body) const {
+[[gnu::always_inline]] inline bool MotionIntegrator::turnsAsSphere(const yade::Body& body) const {
   constexpr unsigned kRotations = yade::State::DOF_RX | yade::State::DOF_RY | yade::State::DOF_RZ;
-  if (!body.isStandalone()) return false;
   const bool isAspherical = (body.flags & yade::Body::FLAG_ASPHERICAL) != 0;
   return !(isAspherical && exactAsphericalRot && (body.state->blockedDOFs & kRotations) == 0);
 }
 
+RotationStep MotionIntegrator::rotationStep(const MotionStep& step) const {
+  RotationStep rotation{step.dt, step.damping, step.scalesDensity, true, true};
+#if YADEFRAG_YADE >= 202502
+  rotation.isByMomentum = rotAlgorithm == RotAlgorithm::Fincham1992;
+  rotation.normalizes = scene->iter % normalizeEvery == 0;
+#endif
+  return rotation;
+}
+
+// False: there is a body that YADE's functions would report.
+bool MotionIntegrator::findMembers(const yade::Clump& clump, std::vector<Member>& members) const {
+  members.clear();
+  for (const auto& [id, local] : clump.members) {
+    const yade::Body* const body = bodyAt(scene->bodies->body, id);
+    if (!body || !forces_.has(static_cast<std::size_t>(id))) return false;
+    members.push_back({body, &local});
+  }
+  return true;
+}
+
 // YADE's NewtonIntegrator::action, for one body.
-[[gnu::always_inline]] inline bool MotionIntegrator::mayMove(const yade::Body& body,
-                                                             Part& part) const {
-  if (body.isClumpMember()) return false;
-  if (mask > 0 && (body.groupMask & mask) == 0) return false;
+[[gnu::always_inline]] inline MotionIntegrator::Way MotionIntegrator::wayOf(
+    const yade::Body& body) const {
+  if (body.isClumpMember()) return Way::kNot;
+  if (mask > 0 && (body.groupMask & mask) == 0) return Way::kNot;
 #ifdef YADE_MPI
   if (scene->subdomain != body.subdomain || body.getIsSubdomain() || body.getIsFluidDomainBbox()) {
-    return false;
+    return Way::kNot;
   }
 #endif
-  if (isOurs(body)) return true;
-  part.others.push_back(body.id);
-  return false;
+  const bool isSphere = turnsAsSphere(body);
+  if (isSphere && body.isStandalone()) return Way::kAsSphere;
+#if YADEFRAG_YADE >= 202502
+  if (!isSphere && rotAlgorithm == RotAlgorithm::Omelyan1998) return Way::kByYade;
+#endif
+  if (body.isStandalone()) return Way::kApart;
+  const bool isKnown = body.shape && typeid(*body.shape.get()) == typeid(yade::Clump) &&
+                       forces_.has(static_cast<std::size_t>(body.id));
+  return isKnown ? Way::kApart : Way::kByYade;
+}
+
+// YADE's Clump::addForceTorqueFromMembers: O.forces has the sum afterwards.
+void MotionIntegrator::sumOfMembers(const yade::Body& body,
+                                    const std::vector<Member>& members) const {
+  FourLanes force{}, torque{};
+  const FourLanes centre = loadThree(body.state->se3.position.data());
+  for (const Member& member : members) {
+    const auto id = static_cast<std::size_t>(member.body->id);
+    const FourLanes on = forces_.forceOn(id);
+    const FourLanes arm = loadThree(member.body->state->se3.position.data()) - centre;
+    force += on, torque += forces_.torqueOn(id) + cross(arm, on);
+  }
+  forces_.addTo(static_cast<std::size_t>(body.id), force, torque);
+}
+
+void MotionIntegrator::moveApart(const MotionStep& step, const yade::Body& body, Part& part) const {
+  part.members.clear();
+  if (body.isClump()) {
+    if (!findMembers(static_cast<const yade::Clump&>(*body.shape), part.members)) {
+      return part.others.push_back(body.id);
+    }
+    sumOfMembers(body, part.members);
+  }
+  const auto id = static_cast<std::size_t>(body.id);
+  const FourLanes force = forces_.forceOn(id), torque = forces_.torqueOn(id);
+  yade::State& state = *body.state;
+  if (turnsAsSphere(body)) {
+    changePlace(step, force, torque, state);
+    changeOrientation(step.dt, state);
+  } else {
+    const RotationStep rotation = rotationStep(step);
+    yade::Vector3r about;
+    storeThree(torque, about.data());
+    changePlace<false>(step, force, torque, state);
+    dampTorque(rotation, state, about);
+    rotation.isByMomentum ? turnByMomentum(rotation, about, state)
+                          : turnBySpin(rotation, about, state);
+  }
+  const auto note = [&](const yade::Body& moved) {
+    if (moved.bound && isBeyondBound(*moved.bound, *moved.state)) part.isAnyBeyond = true;
+  };
+  note(body);
+  ++part.moved;
+  for (const Member& member : part.members) {
+    moveMember(state, *member.local, *member.body->state);
+    note(*member.body);
+  }
 }
 
 [[gnu::always_inline]] inline void MotionIntegrator::moveBlock(const MotionStep& step,
@@ -88,8 +162,12 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   std::size_t numMoved = 0;
   for (std::size_t index = begin; index < end; ++index) {
     requestAhead(bodies, index);
-    if (!bodies[index] || !mayMove(*bodies[index], part)) continue;
+    if (!bodies[index]) continue;
     const yade::Body& body = *bodies[index];
+    const Way way = wayOf(body);
+    if (way == Way::kByYade) part.others.push_back(body.id);
+    if (way == Way::kApart) moveApart(step, body, part);
+    if (way != Way::kAsSphere) continue;
     yade::State& state = *body.state;
     const auto id = static_cast<std::size_t>(body.id);
     changePlace(step, forces_.forceOn(id), forces_.torqueOn(id), state);

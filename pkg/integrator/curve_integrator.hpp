@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "integrator/body_rotation.hpp"
 #include "integrator/id_ranges.hpp"
 #include "integrator/sphere_motion.hpp"
 #include "memory/block_memory.hpp"
@@ -17,6 +18,7 @@ namespace yadefrag {
 class SummedForces {
  public:
   SummedForces() = default;
+  /// `forces` may be changed by `addTo`.
   SummedForces(yade::ForceContainer& forces, std::size_t numBodies) {
     if (numBodies == 0) return;
     // A YADE without OpenMP makes its arrays longer where they end before a body.
@@ -38,6 +40,14 @@ class SummedForces {
   }
   [[gnu::always_inline]] [[nodiscard]] FourLanes torqueOn(std::size_t id) const {
     return id < size_ ? loadThree(torques_[id].data()) : FourLanes{};
+  }
+  /// False: the array ends before the body, and nothing can be added.
+  [[nodiscard]] bool has(std::size_t id) const { return id < size_; }
+  /// As ForceContainer::addForceUnsynced does. Each body by one thread.
+  void addTo(std::size_t id, const FourLanes& force, const FourLanes& torque) const {
+    // The arrays of a container that is not constant.
+    storeThree(forceOn(id) + force, const_cast<double*>(forces_[id].data()));
+    storeThree(torqueOn(id) + torque, const_cast<double*>(torques_[id].data()));
   }
 
  private:
@@ -69,16 +79,34 @@ class MotionIntegrator : public yade::NewtonIntegrator {
   }
 
  private:
+  /// How a step moves a body.
+  enum class Way : std::uint8_t {
+    kNot,
+    kAsSphere,
+    kApart,  // clumps, and bodies with three different moments of inertia
+    kByYade,
+  };
+  /// Of the clump that moves now: its list of members is a tree all over the memory, which is read
+  /// once.
+  struct Member {
+    const yade::Body* body;
+    const yade::Se3r* local;
+  };
   /// Results of one thread.
   struct Part {
+    std::vector<Member> members;
     std::vector<yade::Body::id_t> others;  // bodies that YADE's integrator moves
     long moved = 0;
     bool isAnyBeyond = false;
   };
 
   void readStep(MotionStep& step) const;
-  [[nodiscard]] bool isOurs(const yade::Body& body) const;
-  bool mayMove(const yade::Body& body, Part& part) const;
+  [[nodiscard]] RotationStep rotationStep(const MotionStep& step) const;
+  [[nodiscard]] bool turnsAsSphere(const yade::Body& body) const;
+  bool findMembers(const yade::Clump& clump, std::vector<Member>& members) const;
+  [[nodiscard]] Way wayOf(const yade::Body& body) const;
+  void sumOfMembers(const yade::Body& body, const std::vector<Member>& members) const;
+  void moveApart(const MotionStep& step, const yade::Body& body, Part& part) const;
   void moveBlock(const MotionStep& step, std::size_t begin, std::size_t end, Part& part) const;
   void moveOthers(std::vector<yade::Body::id_t>& others);
   void callYades();
@@ -100,7 +128,8 @@ class CurveIntegrator final
   static constexpr const char* kDoc =
       "NewtonIntegrator for many bodies, with the same attributes and the same results to the last "
       "bit. Bodies whose rotation is integrated as a sphere's are moved by the same formulas, with "
-      "vector instructions and their memory requested ahead; clumps and aspherical bodies by "
+      "vector instructions and their memory requested ahead, clumps and aspherical bodies by the "
+      "same formulas; with rotAlgorithm='Omelyan1998' aspherical bodies are moved by "
       "NewtonIntegrator, and so are all bodies while O.trackEnergy is set.";
 };
 

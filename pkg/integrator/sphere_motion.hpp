@@ -83,7 +83,9 @@ struct MotionStep {
   return change;
 }
 
-/// Velocity, spin and position at the end of the step.
+/// Velocity, spin and position at the end of the step; not the spin of bodies with three different
+/// moments of inertia (`turnsAsSphere`).
+template <bool turnsAsSphere = true>
 [[gnu::always_inline]] inline void changePlace(const MotionStep& step, const FourLanes& force,
                                                const FourLanes& torque, yade::State& state) {
   FourLanes velocity = loadThree(state.vel.data());
@@ -91,18 +93,18 @@ struct MotionStep {
   FourLanes position = loadThree(state.se3.position.data());
   if (state.blockedDOFs != yade::State::DOF_ALL) {
     velocity += step.dt * acceleration(step, force, velocity, state);
-    spin += step.dt * spinAcceleration(step, torque, spin, state);
+    if constexpr (turnsAsSphere) spin += step.dt * spinAcceleration(step, torque, spin, state);
   } else if (step.isPeriodic && step.homoDeform > 1) {
     const yade::Vector3r change = step.dt * step.prevVelGrad * state.vel;
     velocity += loadThree(change.data());
   }
   if (step.isPeriodic && step.homoDeform) {
     velocity += times(step.velGradChange, position);
-    spin += step.spinChange;
+    if constexpr (turnsAsSphere) spin += step.spinChange;
   }
   position += velocity * step.dt;
   storeThree(velocity, state.vel.data());
-  storeThree(spin, state.angVel.data());
+  if constexpr (turnsAsSphere) storeThree(spin, state.angVel.data());
   storeThree(position, state.se3.position.data());
 }
 

@@ -48,9 +48,9 @@ class ShapeContacts {
     bool avoidsRatcheting;
   };
 
-  [[nodiscard]] std::optional<Touch> find(const yade::IGeomFunctor* functor,
-                                          const yade::Body& body, const BodyRow& sphere,
-                                          const ImageShift& shift, bool isReal) const;
+  [[nodiscard]] std::optional<Touch> find(const yade::IGeomFunctor* functor, const yade::Body& body,
+                                          const BodyRow& sphere, const ImageShift& shift,
+                                          bool isReal) const;
   [[nodiscard]] std::optional<Touch> onFacet(const yade::Body& body, const yade::Vector3r& centre,
                                              double radius, bool isReal) const;
   [[nodiscard]] std::optional<Touch> onWall(const yade::Body& body, const yade::Vector3r& centre,

@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 import pytest
+import yade.config
 import yade.wrapper as w
 from yade import utils
 from yade.minieigenHP import Matrix3, Quaternion, Vector3
@@ -52,9 +53,8 @@ def test_bits(settings):
         for body in O.bodies:
             body.mask = 1 + body.id % 3
     newton = requireSame(masked, **settings)
-    clumps = [b for b in O.bodies if b.isClump]
-    standalone = [b for b in O.bodies if b.isStandalone and (settings.get('mask', -1) < 0 or b.mask & 2)]
-    assert len(clumps) == 1 and newton.fastBodies == len(standalone) > 40
+    moved = [b for b in O.bodies if not b.isClumpMember and (settings.get('mask', -1) < 0 or b.mask & 2)]
+    assert newton.fastBodies == len(moved) > 40
 
 
 def test_blockedAndNotDamped():
@@ -85,10 +85,19 @@ def test_densityScaling():
     requireSame(change=scaled)
 
 
-def test_aspherical():
-    """Moved by YADE's integrator, unless an axis of rotation is blocked."""
+kRotations = [dict(rotAlgorithm=name, normalizeEvery=7) for name in ('delValle2023', 'Fincham1992', 'Omelyan1998')
+              ] if yade.config.version >= '2025.2' else [{}]
+
+
+@pytest.mark.parametrize('settings', [dict(one, **more) for one in kRotations for more in ({}, dict(damping=0))], ids=str)
+@pytest.mark.parametrize('periodic', [False, True])
+def test_aspherical(settings, periodic):
+    """Bodies with three moments of inertia, some of which are scaled, or do not rotate about an axis; clumps among them."""
     def aspherical():
-        heap()
+        heap(periodic=periodic)
+        if periodic:
+            O.cell.homoDeform = 2
+            O.cell.velGrad = Matrix3(-.3, .2, 0, .1, -.2, 0, 0, 0, -.3)
         for body in O.bodies:
             if body.isStandalone and isinstance(body.shape, w.Sphere) and body.id % 2:
                 body.aspherical = True
@@ -96,9 +105,46 @@ def test_aspherical():
                 body.state.ori = Quaternion((1, body.id, 2), .1 * body.id)
                 if body.id % 3 == 0:
                     body.state.blockedDOFs = 'X'
-    newton = requireSame(aspherical)
-    others = [b for b in O.bodies if b.isClump or b.aspherical and b.isStandalone and not b.state.blockedDOFs]
-    assert newton.fastBodies == sum(b.isStandalone for b in O.bodies) - len(others) + 1 and len(others) > 30
+
+    def scaled(step):
+        if step == 200:
+            for body in O.bodies:
+                body.state.densityScaling = 1 + .1 * (body.id % 7)
+            O.engines[-1].densityScaling = True
+    newton = requireSame(aspherical, change=scaled, **settings)
+    free = [b for b in O.bodies if b.aspherical and not b.isClumpMember and not b.state.blockedDOFs]
+    moved = sum(not b.isClumpMember for b in O.bodies)
+    assert newton.fastBodies == moved - len(free) * (settings.get('rotAlgorithm') == 'Omelyan1998') and len(free) > 30
+
+
+@pytest.mark.parametrize('settings', [*kRotations, dict(exactAsphericalRot=False)], ids=str)
+def test_clumps(settings):
+    """Members of any number and shape, a force on a clump, clumps that rotate about one axis or are fixed; a member that a
+    script releases, a clump that it removes."""
+    def build():
+        heap()
+        chance = np.random.default_rng(5)
+        for number in range(40):
+            at = chance.uniform(1, 8, 3) + (0, 0, 9)
+            parts = [utils.sphere(at + chance.uniform(-.4, .4, 3), chance.uniform(.2, .5)) for _ in range(1 + number % 5)]
+            if number % 9 == 0:
+                parts.append(utils.box(at, (.2, .3, .1)))
+            clump, _ = O.bodies.appendClumped(parts)
+            state = O.bodies[clump].state
+            state.vel, state.angVel = chance.normal(0, 3, 3), chance.normal(0, 4, 3)
+            state.angMom = Vector3(*(state.inertia[k] * state.angVel[k] for k in range(3)))
+            state.blockedDOFs = {3: 'XZ', 7: 'xyzXYZ'}.get(number, '')
+            O.forces.setPermF(clump, (0, 0, 20. * number))
+
+    def change(step):
+        clumps = [b.id for b in O.bodies if b and b.isClump]
+        if step == 200:
+            O.bodies.releaseFromClump(list(O.bodies[clumps[5]].shape.members)[0], clumps[5])
+        elif step == 300:
+            O.bodies.erase(clumps[9], eraseClumpMembers=True)
+    newton = requireSame(build, change=change, **settings)
+    assert sum(b.isClump for b in O.bodies if b) == 40
+    assert newton.fastBodies > 140 or settings.get('rotAlgorithm') == 'Omelyan1998'
 
 
 @pytest.mark.parametrize('homoDeform', [0, 1, 2, 3])
@@ -203,7 +249,8 @@ def test_changesAfterBodiesAreMovedTogether(folder):
         scenes.addSpheres(places, [.5] * len(places), velocities, dynamic=True)
         O.dt = 2e-4
     requireSame(build, steps=240, every=60, change=change)
-    assert O.engines[-1].fastBodies == len(places) - 20 + 12 - 2
+    # One clump instead of two spheres.
+    assert O.engines[-1].fastBodies == len(places) - 20 + 12 - 1
 
 
 def test_objectsOfScriptsStay():
