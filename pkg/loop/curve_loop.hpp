@@ -24,11 +24,10 @@ class ContactLoop : public yade::InteractionLoop {
     using yade::Attr::noSave;
     using yade::Attr::readonly;
     return attributeList(
-        attribute(
-            "fastGeometries", &C::fastGeometries,
-            "Number of contacts in the last step whose geometry the loop computed itself, as "
-            "Ig2_Sphere_Sphere_ScGeom does; that of all others was computed by YADE's functors.",
-            readonly | noSave),
+        attribute("fastGeometries", &C::fastGeometries,
+                  "Number of contacts in the last step whose geometry the loop computed itself; that "
+                  "of all others was computed by YADE's functors.",
+                  readonly | noSave),
         attribute("fastForces", &C::fastForces,
                   "Number of contacts in the last step whose forces the loop computed itself; "
                   "those of all "
@@ -101,7 +100,8 @@ class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::Interacti
   static constexpr const char* kDoc =
       "InteractionLoop for many contacts of spheres: CurveLoop([Ig2...], [Ip2...], [Law2...]), "
       "with the same arguments, functors, attributes and results. Contacts of "
-      "Ig2_Sphere_Sphere_ScGeom, of Law2_ScGeom_FrictPhys_CundallStrack, of "
+      "Ig2_Sphere_Sphere_ScGeom, of spheres with facets, walls and boxes, of "
+      "Law2_ScGeom_FrictPhys_CundallStrack, of "
       "Law2_ScGeom_MindlinPhys_Mindlin (while no energies are traced), of "
       "Law2_ScGeom_ViscElPhys_Basic and, with YADE before 2025.2, of "
       "Law2_ScGeom6D_CohFrictPhys_CohesionMoment are computed by the loop itself with the same "
