@@ -25,7 +25,13 @@ constexpr std::size_t kAhead = 16;
 constexpr std::size_t kBlock = 16;
 const InstructionSet kInstructions = bestInstructionSet();
 
-/// What `move` uses of a body, then of its state and bound.
+const yade::Clump* clumpOf(const yade::Body& body) {
+  const yade::Shape* const shape = body.isClump() ? body.shape.get() : nullptr;
+  return shape && typeid(*shape) == typeid(yade::Clump) ? static_cast<const yade::Clump*>(shape)
+                                                        : nullptr;
+}
+
+/// What `move` uses of a body, then of its state and bound, and of a clump's members.
 [[gnu::always_inline]] inline void requestAhead(
     const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t index) {
   using yade::Body, yade::Bound, yade::State;
@@ -38,7 +44,13 @@ const InstructionSet kInstructions = bestInstructionSet();
     request(body->state.get(), offsetof(State, se3), sizeof(State));
     request(body->bound.get(), offsetof(Bound, refPos),
             offsetof(Bound, sweepLength) + sizeof(double));
+    if (body->isClump()) request(body->shape.get(), 0, sizeof(yade::Clump));
   }
+  const Body* const next = bodies[index + kAhead / 2].get();
+  const yade::Clump* const clump = next ? clumpOf(*next) : nullptr;
+  if (clump == nullptr || clump->members.empty()) return;
+  request(&*clump->members.begin(), 0, sizeof(yade::Clump::MemberMap::value_type));
+  request(&*clump->members.rbegin(), 0, sizeof(yade::Clump::MemberMap::value_type));
 }
 
 }  // namespace
@@ -101,14 +113,13 @@ bool MotionIntegrator::findMembers(const yade::Clump& clump, std::vector<Member>
   if (!isSphere && rotAlgorithm == RotAlgorithm::Omelyan1998) return Way::kByYade;
 #endif
   if (body.isStandalone()) return Way::kApart;
-  const bool isKnown = body.shape && typeid(*body.shape.get()) == typeid(yade::Clump) &&
-                       forces_.has(static_cast<std::size_t>(body.id));
+  const bool isKnown = clumpOf(body) && forces_.has(static_cast<std::size_t>(body.id));
   return isKnown ? Way::kApart : Way::kByYade;
 }
 
 // YADE's Clump::addForceTorqueFromMembers: O.forces has the sum afterwards.
-void MotionIntegrator::sumOfMembers(const yade::Body& body,
-                                    const std::vector<Member>& members) const {
+[[gnu::always_inline]] inline void MotionIntegrator::sumOfMembers(
+    const yade::Body& body, const std::vector<Member>& members) const {
   FourLanes force{}, torque{};
   const FourLanes centre = loadThree(body.state->se3.position.data());
   for (const Member& member : members) {
@@ -120,7 +131,9 @@ void MotionIntegrator::sumOfMembers(const yade::Body& body,
   forces_.addTo(static_cast<std::size_t>(body.id), force, torque);
 }
 
-void MotionIntegrator::moveApart(const MotionStep& step, const yade::Body& body, Part& part) const {
+[[gnu::always_inline]] inline void MotionIntegrator::moveApart(const MotionStep& step,
+                                                               const yade::Body& body,
+                                                               Part& part) const {
   part.members.clear();
   if (body.isClump()) {
     if (!findMembers(static_cast<const yade::Clump&>(*body.shape), part.members)) {
