@@ -1,12 +1,11 @@
 """CurveIntegrator in the place of YADE's NewtonIntegrator: the same bits, whatever bodies the scene has.
 Threads: test_lifecycle.py."""
-import os
 
 import numpy as np
 import pytest
 import yade.wrapper as w
 from yade import utils
-from yade.minieigenHP import Matrix3, Quaternion, Vector3
+from yade.minieigenHP import Matrix3, Quaternion
 
 import scenes
 from scenes import O, heap, state
@@ -131,127 +130,6 @@ def test_energies():
     assert found[0] == found[1] and found[2] == found[3]
     assert 'kinetic' in found[0][1] and 'kinRot' in found[2][1]
     assert newton.fastBodies == 0
-
-
-def test_changesFromPython():
-    """Bodies erased, inserted, clumped and pushed, permanent forces, another integrator's settings."""
-    def change(step):
-        if step == 100:
-            for number in (3, 17, 60):
-                O.bodies.erase(number)
-            O.forces.setPermF(20, (3000, 0, 9000))
-            O.forces.setPermT(21, (300, 500, 900))
-        elif step == 200:
-            O.bodies.appendClumped([utils.sphere((3, 3, 9), .6), utils.sphere((3.8, 3, 9), .6)])
-            O.bodies.append(utils.sphere((6, 3, 9), .7))
-            O.bodies[20].state.vel = (0, 0, 9)
-            O.bodies[25].state.angVel = (50, 0, 9)
-        elif step == 300:
-            O.engines[-1].gravity = (0, 0, 5)
-            O.engines[-1].damping = .3
-            O.bodies[30].aspherical = True
-            O.dt *= .5
-    requireSame(change=change)
-
-
-def test_savedAndLoaded(folder):
-    heap()
-    engines('CurveIntegrator', damping=.3, kinSplit=True)
-    O.run(100, True)
-    path = os.path.join(folder, 'scene.yade.gz')
-    O.save(path)
-    O.run(100, True)
-    expected = state()[0]
-    O.reset()
-    O.load(path)
-    newton = O.engines[-1]
-    assert type(newton) is w.CurveIntegrator and newton.damping == .3 and newton.kinSplit
-    O.run(100, True)
-    assert np.abs(np.frombuffer(state()[0]) - np.frombuffer(expected)).max() < 1e-6
-
-
-def test_changesAfterBodiesAreMovedTogether(folder):
-    """Bodies erased, added, clumped, with other states and masks, and a saved scene, when more than 2,048 bodies lie in
-    blocks of memory: the same bits."""
-    chance = np.random.default_rng(9)
-    places = np.array(list(np.ndindex(14, 14, 14))) * 1.05 + chance.uniform(-.02, .02, (14 ** 3, 3))
-
-    def change(step):
-        if step == 60:
-            for number in range(100, 2700, 130):
-                O.bodies.erase(number)
-            for number in range(12):
-                O.bodies.append(utils.sphere(Vector3(number, 3, 20), .5))
-        if step == 120:
-            O.bodies.clump([5, 6])
-            other = w.State(mass=1, inertia=(1, 1, 1), vel=(0, 0, 5))
-            other.pos = other.refPos = O.bodies[7].state.pos
-            O.bodies[7].state = other
-            O.bodies[8].mask = 3
-            O.bodies[9].dynamic = False
-        if step == 180:
-            O.save(os.path.join(folder, 'moved.yade.gz'))
-            O.reset()
-            O.load(os.path.join(folder, 'moved.yade.gz'))
-            for number in range(231, 331):
-                O.bodies[number].state.vel += Vector3(0, 0, 1)
-
-    def build():
-        scenes.clear()
-        O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
-        velocities = np.random.default_rng(4).normal(0, 5, (len(places), 3))
-        scenes.addSpheres(places, [.5] * len(places), velocities, dynamic=True)
-        O.dt = 2e-4
-    requireSame(build, steps=240, every=60, change=change)
-    assert O.engines[-1].fastBodies == len(places) - 20 + 12 - 2
-
-
-def test_objectsOfScriptsStay():
-    """Bodies, states, geometries and physics are moved in memory: those that a script has made and refers to, or has
-    given attributes of its own, stay those of the scene."""
-    scenes.clear()
-    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
-    places = np.array(list(np.ndindex(14, 14, 14))) * .97
-    states, kept = {}, {}
-    for number, place in enumerate(places):
-        ball = utils.sphere(Vector3(*place), .5)
-        if number % 500 == 7:
-            state = w.State()
-            state.mass, state.inertia, state.pos = ball.state.mass, ball.state.inertia, ball.state.pos
-            ball.state = states[number] = state
-        if number % 500 == 8:
-            kept[number] = ball
-        if number % 500 == 9:
-            ball.state.remark = number
-            ball.remark = number
-        O.bodies.append(ball)
-    del ball, state
-    engines('CurveIntegrator')
-    O.engines = [w.CurveLoop(*[part.functors for part in (e.geomDispatcher, e.physDispatcher, e.lawDispatcher)])
-                 if isinstance(e, w.InteractionLoop) else e for e in O.engines]
-    O.dt = 1e-4
-    O.step()
-    contacts = [i for i in O.interactions if i.isReal][::400]
-    physics = {}
-    for contact in contacts:
-        made = w.FrictPhys(kn=contact.phys.kn, ks=contact.phys.ks, tangensOfFrictionAngle=.3)
-        contact.phys = physics[contact.id1, contact.id2] = made
-    del contact, contacts, made
-    O.run(300, True)
-    assert O.engines[-1].fastBodies == len(places) and len(states) == len(kept) == 6 and len(physics) > 10
-    for number, state in states.items():
-        assert state.pos == O.bodies[number].state.pos != state.refPos
-        assert O.bodies[number + 2].remark == number + 2
-    for number, ball in kept.items():
-        assert ball.state.vel == O.bodies[number].state.vel
-        ball.state.vel = (1, 2, 3)
-        assert tuple(O.bodies[number].state.vel) == (1, 2, 3)
-    lasting = [ids for ids in physics if O.interactions.has(*ids) and O.interactions[ids].isReal]
-    assert len(lasting) > 5
-    for ids in lasting:
-        physics[ids].kn = 0
-        assert O.interactions[ids].phys.kn == 0
-        assert O.interactions[ids].phys.normalForce == physics[ids].normalForce
 
 
 def test_isAnIntegrator(capfd):
