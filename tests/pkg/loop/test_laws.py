@@ -333,7 +333,7 @@ def test_changesBetweenSteps(name, ending, folder):
             O.reset()
             O.load(os.path.join(folder, 'scene.' + ending))
     loop = requireSameWith(one, one.options['most'], 160, build=denseHeap, change=change)
-    assert loop.fastForces >= O.interactions.countReal() > 200 or ending
+    assert loop.fastForces >= O.interactions.countReal() > 190 or ending
 
 
 @byLaw
