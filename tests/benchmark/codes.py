@@ -1,7 +1,7 @@
 """YADE, with and without our engines, beside LAMMPS and LIGGGHTS: scripts/bench codes [--sizes 1e4,1e5] ...
 
-The same positions, velocities, radii, stiffness, friction and time step (codes_yade.py writes them, codes_lammps.py
-and codes_liggghts.py read them), without damping. Each measurement is a process of its own; the codes take turns
+The same positions, velocities, radii, stiffness, friction and time step (codes_yade.py writes them, codes_others.py
+reads them), without damping. Each measurement is a process of its own; the codes take turns
 within every repeat, and ratios are formed within a repeat. Shown are medians. Threads are OpenMP's in YADE and MPI
 processes in LAMMPS and LIGGGHTS, which Debian builds without OpenMP. The first steps (--warm)
 are not measured, as colliders adapt in them.
@@ -15,20 +15,21 @@ facets, but planes.
 Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
 and codes.png to out/bench; with --readme the table goes into docs/data and the pages.
 """
+import argparse
 import json
 import os
+import shutil
 import statistics
 import sys
 import tempfile
+import time
 
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-import codes_lammps  # noqa: E402
-import codes_liggghts  # noqa: E402
-import colliders  # noqa: E402
+import codes_others  # noqa: E402
 import measured_tables  # noqa: E402
 from measured_tables import digits  # noqa: E402
 
@@ -38,7 +39,8 @@ ENGINES = {  # collider, loop, integrator
     'collider': ('LebesgueCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'loop': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator'),
     'integrator': ('LebesgueCollider', 'CurveLoop', 'CurveIntegrator')}
-OTHERS = {'LIGGGHTS': codes_liggghts, 'LAMMPS': codes_lammps}
+OTHERS = {'LIGGGHTS': codes_others.measureLiggghts, 'LAMMPS': codes_others.measureLammps}
+PROGRAMS = {'LIGGGHTS': 'liggghts', 'LAMMPS': 'lmp'}
 TOLERANCE = .03
 
 
@@ -46,7 +48,7 @@ def parse(arguments):
     """The options."""
     parser = measured_tables.parser('codes', __doc__)
     known = [*ENGINES, *OTHERS]
-    names = lambda of: lambda text: colliders.knownNames(text.split(','), of)  # noqa: E731
+    names = lambda of: lambda text: knownNames(text.split(','), of)  # noqa: E731
     numbers = lambda text: [int(float(x)) for x in text.split(',')]  # noqa: E731
     parser.add_argument('--scenes', type=names(SCENES), default=SCENES, help='default: all')
     parser.add_argument('--codes', type=names(known), default=known, help=f'default: {",".join(known)}')
@@ -63,10 +65,29 @@ def parse(arguments):
     return parser.parse_args(arguments)
 
 
+def knownNames(names, known):
+    """The names, if all are known."""
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise argparse.ArgumentTypeError(f'{unknown[0]} is not one of {", ".join(known)}')
+    return names
+
+
+def makeProgress():
+    """A function of a text that prints each new scene."""
+    last = [None]
+
+    def say(text):
+        scene = text.split(':')[0]
+        if scene != last[0]:
+            print(f'{time.strftime("%H:%M:%S")} {scene}', file=sys.stderr, flush=True)
+        last[0] = scene
+    return say
+
+
 def installed(codes):
     """Those of the codes that there are; a sentence about the others."""
-    there = {name: module.exists() for name, module in OTHERS.items()}
-    missing = [name for name in codes if not there.get(name, True)]
+    missing = [name for name in codes if name in OTHERS and not shutil.which(PROGRAMS[name])]
     if missing:
         packages = ' '.join(name.lower() for name in missing)
         print(f'not compared with {" and ".join(missing)}: not installed (sudo apt-get install {packages}).',
@@ -85,13 +106,13 @@ def ofYade(options, name, scene, n, threads, folder):
 
 def ofOther(options, name, threads, folder):
     """One run of another code; its row, and the positions at the end."""
-    row = OTHERS[name].measure(folder, options.warm, options.steps, threads, options.limit)
-    return row, codes_lammps.ended(folder)
+    row = OTHERS[name](folder, options.warm, options.steps, threads, options.limit)
+    return row, codes_others.ended(folder)
 
 
 def deviation(folder, end, reference):
     """Difference of positions relative to the displacements since the start, of the spheres that obey forces."""
-    arrays, _ = codes_lammps.start(folder)
+    arrays, _ = codes_others.start(folder)
     free = ~arrays['fixed']
     size = lambda x: np.sqrt((x[free] ** 2).sum(axis=1).mean())  # noqa: E731
     return float(size(end - reference) / size(reference - arrays['places']))
@@ -211,7 +232,7 @@ def main(arguments):
     former = [row for file in options.add for row in earlier(file, options.steps)]
     if not options.codes or options.codes[0] not in ENGINES:
         sys.exit('scripts/bench codes: the first of --codes must be one of ' + ', '.join(ENGINES) + '.')
-    rows = former + measured(options, colliders.makeProgress())
+    rows = former + measured(options, makeProgress())
     machine = measured_tables.machineOf(rows)
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'codes.json'), 'w') as out:

@@ -23,7 +23,6 @@ from yade import O, config  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
 from yade.wrapper import ForceResetter, Sphere  # noqa: E402
 
-import driven_scenes  # noqa: E402
 import scenes  # noqa: E402
 
 YOUNG = 1e7  # Pa, of all these scenes
@@ -35,8 +34,7 @@ def build(settings):
     """The scene without damping, which the other codes do not have, and with one stiffness for all contacts."""
     O.reset()
     scene = settings['scene']
-    builder = {'stirred': driven_scenes.stirred, 'hopper': driven_scenes.hopper}.get(scene) or scenes.SCENES[scene]
-    parts = builder(settings['n'], settings['seed'])
+    parts = getattr(scenes, scene)(settings['n'], settings['seed'])
     O.dt = parts['dt']
     O.materials[0].frictionAngle = settings['friction']
     parts['newton']['damping'] = 0
@@ -98,7 +96,7 @@ def writeStart(settings, parts, places, velocities, spins):
                  density=scenes.DENSITY, radius=scenes.RADIUS, gravity=-parts['newton'].get('gravity', (0, 0, 0))[2],
                  turn=parts['turning'].angularVelocity if 'turning' in parts else 0)
     if settings['scene'] == 'hopper':
-        about['walls'] = [part.tolist() for part in driven_scenes.walls()]
+        about['walls'] = [part.tolist() for part in scenes.walls()]
         about['facets'] = [[list(body.state.pos + corner) for corner in body.shape.vertices]
                            for body in O.bodies if not isinstance(body.shape, Sphere)]
     with open(os.path.join(folder, 'start.json'), 'w') as out:

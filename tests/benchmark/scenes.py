@@ -1,4 +1,8 @@
-"""Scenes for the benchmark, built inside yade from a seed.
+"""Scenes for codes_yade.py, built inside yade from a seed.
+
+gas, packing, polydisperse   spheres alone
+stirred   a block as in `packing`: its outermost spheres are fixed, and a bar of spheres through its middle turns
+hopper    an inverted pyramid of facets, filled with spheres, which leave through its open end
 
 Every builder is called as builder(n, seed), appends bodies to O.bodies (which should be empty) and
 returns a dict:
@@ -6,27 +10,33 @@ returns a dict:
     bound, geom, phys, law   lists of functors
     newton                   keyword arguments for NewtonIntegrator
     dt                       time step, s
-    perStep                  None, or a function of the step number, called before each step
+    turning                  the engine that moves the bar, if there is one
 
 SI units. The smallest sphere has the radius RADIUS. Lattices are turned at random, so that neither
 a sweep along the axes nor a grid meets rows of equal coordinates by chance, and bodies are appended
 in random order (a collider gets no ready-made neighbourhoods in memory).
 """
-import functools
 import math
 
 import numpy as np
 from yade import O
+from yade.minieigenHP import Vector3
+from yade.utils import facet
 from yade.wrapper import (
-    Bo1_Sphere_Aabb, Body, FrictMat, Ig2_Sphere_Sphere_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, Sphere)
+    Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Body, FrictMat, Ig2_Facet_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
+    Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, RotationEngine, Sphere)
 
 RADIUS = 1e-3  # m
 DENSITY = 2600.0  # kg/m3
 SPEED = 1.0  # m/s, standard deviation of each velocity component in a gas
+PER_STEP = .005 * RADIUS  # m, of the ends of the bar
+SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))  # where the hopper's four walls are, seen from above
+SLOPE = math.tan(math.radians(60))  # of the walls
+OPENING = 6 * RADIUS  # m, half of the width of the open end
+FACET = 10 * RADIUS  # m, about the length of a facet
 
 
-def gas(n, seed, speed=SPEED):
+def gas(n, seed):
     """A loose cloud of n equal spheres, volume fraction .1, free to expand.
 
     Sites are drawn from a lattice 7.5 % wider than the spheres. Velocities are normal, 1 m/s per
@@ -35,7 +45,7 @@ def gas(n, seed, speed=SPEED):
     rng = np.random.default_rng(seed)
     spacing = 2.15 * RADIUS
     positions = _lattice(rng, n, spacing, _occupancy(.1, spacing, 1))
-    _addSpheres(rng, positions, np.full(n, RADIUS), rng.normal(0, speed, (n, 3)), _material(1e7))
+    _addSpheres(rng, positions, np.full(n, RADIUS), rng.normal(0, SPEED, (n, 3)), _material(1e7))
     return _parts(1e7, damping=0)
 
 
@@ -56,7 +66,7 @@ def packing(n, seed):
     return _parts(1e7, damping=.2)
 
 
-def polydisperse(n, seed, ratio=20., speed=SPEED):
+def polydisperse(n, seed, ratio=20.):
     """A gas of n spheres with radii from RADIUS to RADIUS * ratio, volume fraction .25.
 
     The volume is spread evenly over the logarithm of the radius (each octave of radii holds the
@@ -66,152 +76,86 @@ def polydisperse(n, seed, ratio=20., speed=SPEED):
     """
     rng = np.random.default_rng(seed)
     positions, radii = _sizeClasses(rng, n, ratio, .25)
-    _addSpheres(rng, positions, radii, rng.normal(0, speed, (n, 3)), _material(1e7))
+    _addSpheres(rng, positions, radii, rng.normal(0, SPEED, (n, 3)), _material(1e7))
     return _parts(1e7, damping=0)
 
 
-def clusters(n, seed):
-    """Two dense blocks 20 block edges apart, and 1 % of the n spheres far outside.
-
-    The blocks are as in `packing` and approach each other at 1 m/s each (their outermost spheres
-    keep that velocity). The outliers are spread over a cube of 100 block edges, with velocities as
-    in `gas`. Young 10 MPa, no damping.
-    """
+def stirred(n, seed):
+    """Spheres in random order; `turning` is the engine that moves the bar."""
     rng = np.random.default_rng(seed)
-    nOut = max(1, n // 100)
-    halves = ((n - nOut) // 2, n - nOut - (n - nOut) // 2)
-    edge = (max(halves) * 4 / 3 * math.pi * RADIUS ** 3 / .6) ** (1 / 3)
-    positions, velocities, skins = [], [], []
-    for m, side in zip(halves, (-1, 1)):
-        block = _block(rng, m)
-        skin = _skin(block)
-        velocity = rng.normal(0, .02, (m, 3))
-        velocity[skin] = 0
-        positions.append(block + [side * 10 * edge, 0, 0])
-        velocities.append(velocity - [side * SPEED, 0, 0])
-        skins.append(skin)
-    out = rng.uniform(-50, 50, (4 * nOut, 3)) * edge
-    positions.append(out[np.abs(out).max(axis=1) > 12 * edge][:nOut])
-    velocities.append(rng.normal(0, SPEED, (nOut, 3)))
-    skins.append(np.zeros(nOut, bool))
-    _addSpheres(rng, np.concatenate(positions), np.full(n, RADIUS), np.concatenate(velocities),
-                _material(1e7), np.where(np.concatenate(skins), 'xyzXYZ', ''))
-    return _parts(1e7, damping=0)
-
-
-def plane(n, seed):
-    """Plane impact: n - 1 spheres with centres at z = 0 hit by one of ten times their radius.
-
-    A square piece of a triangular lattice (touching: neighbours overlap by .01 %), at rest. The
-    projectile comes along x at 60 m/s and touches after about 10 steps. z and the rotations about x
-    and y are blocked. Young 1 GPa (the projectile moves .03 radii per step), damping .1.
-    """
-    rng = np.random.default_rng(seed)
-    positions = _triangular(rng, n - 1, 2 * RADIUS * (1 - 1e-4))
-    big = 10 * RADIUS
-    start = [_startOf(positions, big) - .3 * RADIUS, 0, 0]
-    radii = np.append(np.full(n - 1, RADIUS), big)
-    velocities = np.zeros((n, 3))
-    velocities[-1] = [60, 0, 0]
-    _addSpheres(rng, np.vstack([positions, start]), radii, velocities, _material(1e9),
-                np.full(n, 'zXY'))
-    return _parts(1e9, damping=.1)
-
-
-def projectile(n, seed):
-    """A dense block of n - 1 spheres hit by one at 100 times the speed of the thermal jitter.
-
-    The block as in `packing`, but with nothing fixed on the side that is hit, and with velocities
-    of .3 m/s per component; the projectile has three times the radius, comes along x at 30 m/s and
-    touches after about 10 steps. Young 100 MPa (it moves .045 radii per step), damping .1.
-    """
-    rng = np.random.default_rng(seed)
-    positions = _block(rng, n - 1)
-    big = 3 * RADIUS
-    start = [_startOf(positions, big) - .45 * RADIUS, 0, 0]
-    radii = np.append(np.full(n - 1, RADIUS), big)
-    skin = _skin(positions) & (positions[:, 0] > positions[:, 0].min() + 2.2 * RADIUS)
-    velocities = np.vstack([rng.normal(0, .3, (n - 1, 3)), [30, 0, 0]])
-    velocities[:-1][skin] = 0
-    _addSpheres(rng, np.vstack([positions, start]), radii, velocities, _material(1e8),
-                np.append(np.where(skin, 'xyzXYZ', ''), ''))
-    return _parts(1e8, damping=.1)
-
-
-def insertion(n, seed, perStep=10):
-    """`gas`, and 10 bodies more appended before each step.
-
-    The new spheres come from a square nozzle 10 radii beside the cloud, 15 sites wide, that draws
-    back along x as it fills its layers, at the cloud's density and speeds.
-    """
-    rng = np.random.default_rng(seed)
-    spacing = 2.15 * RADIUS
-    positions = _lattice(rng, n, spacing, _occupancy(.1, spacing, 1))
+    positions = rng.permutation(_block(rng, n))
+    half = np.abs(positions).max()
+    reach = .75 * half
+    skin = _skin(positions)
+    bar = (np.abs(positions[:, 1]) < 2.2 * RADIUS) & (np.abs(positions[:, 2]) < .8 * half) & ~skin
+    bar &= np.hypot(positions[:, 0], positions[:, 1]) < reach
     material = _material(1e7)
-    _addSpheres(rng, positions, np.full(n, RADIUS), rng.normal(0, SPEED, (n, 3)), material)
-    sites = _nozzle(rng, positions[:, 0].max() + 10 * RADIUS, 15, .1)
-
-    def append(step):
-        for _ in range(perStep):
-            body = _sphere(next(sites), RADIUS, rng.normal(0, SPEED, 3).tolist(), material)
-            O.bodies.append(body)
-
-    parts = _parts(1e7, damping=0)
-    parts['perStep'] = append
-    return parts
+    for position, fixed in zip(positions.tolist(), (skin | bar).tolist()):
+        O.bodies.append(_sphere(position, RADIUS, (0, 0, 0), material, 'xyzXYZ' if fixed else ''))
+    parts = _parts(1e7, damping=.2)
+    speed = PER_STEP / parts['dt'] / reach
+    turning = RotationEngine(ids=np.flatnonzero(bar).tolist(), angularVelocity=speed, rotationAxis=(0, 0, 1),
+                             zeroPoint=(0, 0, 0), rotateAroundZero=True)
+    return dict(parts, turning=turning)
 
 
-def exchange(n, seed, perStep=100):
-    """`insertion` of 100 bodies before each step, while as many others are erased."""
-    parts = insertion(n, seed, perStep)
-    rng, append = np.random.default_rng(seed + 1), parts['perStep']
-    alive = list(rng.permutation(n))
+def hopper(n, seed):
+    """n spheres of `packing`'s lattice in a hopper, all with .3 m/s downwards, under gravity.
 
-    def step(number):
-        first = len(O.bodies)
-        append(number)
-        alive.extend(range(first, len(O.bodies)))
-        for _ in range(perStep):
-            place = int(rng.integers(len(alive)))
-            alive[place], alive[-1] = alive[-1], alive[place]
-            O.bodies.erase(int(alive.pop()))
-
-    parts['perStep'] = step
-    return parts
-
-
-def rest(n, seed):
-    """`packing` with nothing fixed and nothing in motion, but for one sphere far outside."""
-    rng = np.random.default_rng(seed)
-    positions = _block(rng, n - 1)
-    far = [2 * positions[:, 0].max(), 0, 0]
-    velocities = np.zeros((n, 3))
-    velocities[-1] = [10 * SPEED, 0, 0]
-    # Without contact, so that they stay at rest.
-    _addSpheres(rng, np.vstack([positions * 1.01, far]), np.full(n, RADIUS), velocities,
-                _material(1e7))
-    return _parts(1e7, damping=0)
-
-
-SCENES = {**{f.__name__: f for f in (gas, packing, polydisperse, clusters, plane, projectile, insertion, exchange, rest)},
-          # At a quarter and four times the speed; radii 1:50.
-          **{f'{f.__name__}{name}': functools.partial(f, speed=part * SPEED) for f in (gas, polydisperse)
-             for name, part in (('025', .25), ('4', 4))}, 'polydisperse50': functools.partial(polydisperse, ratio=50.)}
-
-
-def build(name, n, seed):
-    """Reset YADE, build the scene `name` with n bodies, set O.dt; return its dict.
-
-    Raises ValueError for an unknown scene or fewer than 100 bodies.
+    Its walls rise by 60 degrees from an opening 12 radii wide, and are divided into facets about 10 radii long.
     """
-    if name not in SCENES:
-        raise ValueError(f"scene is {name!r}; it must be one of {', '.join(SCENES)}")
-    if n < 100:
-        raise ValueError(f'n is {n}; a scene needs at least 100 bodies')
-    O.reset()
-    parts = SCENES[name](n, seed)
-    O.dt = parts['dt']
+    rng = np.random.default_rng(seed)
+    positions = _filled(rng, n)
+    material = _material(1e7)
+    _addSpheres(rng, positions, np.full(n, RADIUS), np.tile([0, 0, -.3], (n, 1)), material)
+    for corners in facets(positions[:, 2].max() + 2 * RADIUS):
+        O.bodies.append(facet([Vector3(*corner) for corner in corners], material=material))
+    parts = _parts(1e7, damping=0)
+    parts['bound'].append(Bo1_Facet_Aabb())
+    parts['geom'].append(Ig2_Facet_Sphere_ScGeom())
+    parts['newton']['gravity'] = (0, 0, -9.81)
     return parts
+
+
+def walls():
+    """Points on the four walls, and normals to the inside, (4, 3) each."""
+    points = np.array([(x * OPENING, y * OPENING, 0) for x, y in SIDES])
+    normals = np.array([(-x * SLOPE, -y * SLOPE, 1) for x, y in SIDES]) / math.hypot(SLOPE, 1)
+    return points, normals
+
+
+def _filled(rng, n):
+    """(n, 3): sites of a turned lattice that touch or clear the walls, the lowest ones above the opening."""
+    points, normals = walls()
+    # Volume of the pyramid up to a height h: (W³ - w³) SLOPE / 6 with the width W = w + 2 h / SLOPE.
+    volume = n * 4 / 3 * math.pi * RADIUS ** 3 / .5
+    width = ((2 * OPENING) ** 3 + 6 * volume / SLOPE) ** (1 / 3)
+    height = (width - 2 * OPENING) * SLOPE / 2
+    edge = max(width, height) * 1.3
+    sites = _block(rng, int(edge ** 3 * .6 / (4 / 3 * math.pi * RADIUS ** 3)))
+    sites[:, 2] += edge / 2 - .1 * edge
+    inside = sites[:, 2] > RADIUS
+    for point, normal in zip(points, normals):
+        inside &= (sites - point) @ normal > (1 - 1e-3) * RADIUS
+    sites = sites[inside]
+    if len(sites) < n:
+        raise RuntimeError(f'the hopper has room for {len(sites)} spheres, not {n}')
+    return sites[np.argsort(sites[:, 2])[:n]]
+
+
+def facets(height):
+    """Corners (m, 3, 3) of the walls' triangles, up to a height."""
+    rows = max(1, round(height * math.hypot(1, 1 / SLOPE) / FACET))
+    levels = np.linspace(0, height, rows + 1)
+    columns = max(1, round((OPENING + height / SLOPE / 2) * 2 / FACET))
+    across = np.linspace(-1, 1, columns + 1)
+    found = []
+    for x, y in SIDES:
+        half = OPENING + levels / SLOPE
+        grid = np.array([[(x * h - y * h * a, y * h + x * h * a, z) for a in across] for h, z in zip(half, levels)])
+        a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]
+        found += [np.stack(corners, axis=2).reshape(-1, 3, 3) for corners in ((a, b, c), (a, c, d))]
+    return np.concatenate(found)
 
 
 # --- materials and bodies -------------------------------------------------------------------------
@@ -225,7 +169,7 @@ def _parts(young, damping):
     return dict(bound=[Bo1_Sphere_Aabb()], geom=[Ig2_Sphere_Sphere_ScGeom()],
                 phys=[Ip2_FrictMat_FrictMat_FrictPhys()],
                 law=[Law2_ScGeom_FrictPhys_CundallStrack()], newton=dict(damping=damping),
-                dt=.3 * RADIUS * math.sqrt(DENSITY / young), perStep=None)
+                dt=.3 * RADIUS * math.sqrt(DENSITY / young))
 
 
 def _sphere(position, radius, velocity, material, blocked=''):
@@ -290,25 +234,6 @@ def _nearest(sites, n):
     return sites[np.argpartition(distance, n - 1)[:n]]
 
 
-def _triangular(rng, n, spacing):
-    """n sites (n, 3) of a turned triangular lattice at z = 0 in a square around the origin."""
-    reach = int(math.sqrt(n)) + 4
-    i, j = np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1))
-    x = (i + .5 * (j % 2)).ravel() * spacing
-    y = j.ravel() * (spacing * math.sqrt(.75))
-    angle = rng.uniform(0, math.pi / 3)
-    c, s = math.cos(angle), math.sin(angle)
-    return _nearest(np.stack([c * x - s * y, s * x + c * y, np.zeros_like(x)], axis=1), n)
-
-
-def _startOf(positions, radius):
-    """x at which a sphere of this radius, coming along the x axis, touches the block."""
-    off = np.hypot(positions[:, 1], positions[:, 2])
-    near = off < radius + RADIUS
-    touch = positions[near, 0] - np.sqrt((radius + RADIUS) ** 2 - off[near] ** 2)
-    return touch.min()
-
-
 def _sizeClasses(rng, n, ratio, fraction):
     """Positions (n, 3) and radii (n) of spheres from RADIUS to RADIUS * ratio that do not overlap.
 
@@ -360,14 +285,3 @@ def _radii(rng, n, low, high):
     return (low ** -3 + u * (high ** -3 - low ** -3)) ** (-1 / 3)
 
 
-def _nozzle(rng, start, side, fraction):
-    """Endless generator of sites (lists of 3): square layers, side x side, from x = start on."""
-    spacing = 3.4 * RADIUS
-    count = round(side ** 2 * _occupancy(fraction, spacing, 1))
-    layer = 0
-    while True:
-        y, z = np.divmod(rng.permutation(side ** 2)[:count], side)
-        x = np.full(count, start + layer * spacing)
-        y, z = (y - side / 2) * spacing, (z - side / 2) * spacing
-        yield from np.stack([x, y, z], axis=1).tolist()
-        layer += 1

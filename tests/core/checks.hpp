@@ -1,7 +1,8 @@
 #pragma once
 // What the tests of all folders share: sentences that users read when something is refused;
 // equality to the last bit, which is what "same input, same bits" means (== would take -0 for 0);
-// random numbers; measured figures, which are in the XML output and in the message of a failure.
+// random numbers; measured figures, which are in the XML output and in the message of a failure;
+// memory that runs out at a moment which a test chooses.
 
 #include <gtest/gtest.h>
 
@@ -84,5 +85,14 @@ inline void figure(const std::string& name, double value, double wanted, double 
   record(name, value);
   EXPECT_NEAR(value, wanted, tolerance) << name;
 }
+
+/// While it exists, the allocation after `count` further ones of this thread throws std::bad_alloc.
+class FailingMemory {
+ public:
+  explicit FailingMemory(std::size_t count);
+  ~FailingMemory();
+  FailingMemory(const FailingMemory&) = delete;
+  FailingMemory& operator=(const FailingMemory&) = delete;
+};
 
 }  // namespace yadefrag::test

@@ -1,8 +1,8 @@
-#include "core/failing_memory.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+
+#include "core/checks.hpp"
 
 namespace {
 

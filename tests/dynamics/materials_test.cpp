@@ -189,12 +189,6 @@ TEST(Materials, AListOfOneMaterialHasTheBitsOfABodyOfIt) {
   EXPECT_EQ(energyOf(one.model), energyOf(several.model));
 }
 
-TEST(Materials, TheSameBitsAnyhow) {
-  Model model = patchwork();
-  shake(model, 1);
-  expectSameBits(model, .8, 100);
-}
-
 TEST(Materials, BodiesJoinAndLeave) {
   const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 2, 2);
   const auto numbers = [](Vec2 at) { return at.x < .5 ? 0 : 1; };

@@ -33,7 +33,7 @@ double pulseErrorIn(const std::vector<TriangleMesh>& parts) {
 TEST(ConformMotion, ABarOfTwoElementSizesCarriesAWaveAsOneBarDoes) {
   const double coarse = pulseErrorIn({barFrom(0, .4, 4)});
   record("coarse", coarse);
-  for (const int rows : {5, 6, 7, 10}) {
+  for (const int rows : {4, 5, 6, 7, 10}) {
     const double bonded =
         pulseErrorIn({barFrom(0, .1, 4), barFrom(.1, .2, rows), barFrom(.2, .4, 4)});
     record("rows_" + std::to_string(rows), bonded);
@@ -149,15 +149,6 @@ TEST(ConformMotion, BondsOfDividedSidesBreakAndTheFacesTouch) {
   EXPECT_NE(momentum(world, kSecond).y, 0);
   EXPECT_LT(deepest, 1e-4);
   EXPECT_NEAR(totalEnergy(world) / start, 1, .02);
-}
-
-TEST(ConformMotion, LeavesWithABody) {
-  World world = tJunction(.37, .2, .0043);
-  world.bondAll(1e-6, 5e5, 10);
-  const double dt = .4 * world.criticalTimeStep();
-  for (int i = 0; i < 100; ++i) world.step(dt);
-  world.removeBody(kSecond);
-  for (int i = 0; i < 100; ++i) world.step(dt);
 }
 
 TEST(ConformMotion, SmoothedElementsAndBodiesThatMoveAreBondedToo) {

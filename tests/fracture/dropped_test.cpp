@@ -43,9 +43,10 @@ bool isHeldPiece(const World& world, std::span<const std::uint32_t> pieces, std:
 std::size_t loosePieces(const World& world, double area) {
   const std::vector<std::uint32_t> pieces = piecesOf(world.model);
   std::vector<double> areas(pieces.size());
-  for (std::size_t e = 0; e < pieces.size(); ++e) areas[pieces[e]] += world.model.triangles.area[e];
+  for (std::size_t e = 0; e < world.model.components[0].lastTriangle; ++e)
+    areas[pieces[e]] += world.model.triangles.area[e];
   std::size_t count = 0;
-  for (std::uint32_t piece = 0; piece < world.model.components[0].lastTriangle; ++piece)
+  for (std::uint32_t piece = 0; piece < areas.size(); ++piece)
     if (areas[piece] > 0 && areas[piece] < area && !isHeldPiece(world, pieces, piece)) ++count;
   return count;
 }
@@ -196,7 +197,7 @@ TEST(DropFragmentsOf, TheyDoNotMoveAgain) {
 // own, and the ledger has what that changes.
 
 /// A plate of 40 × 20 mm whose short ends fly apart.
-World plate(double fractureEnergy, ElementKind element, double minArea = 0) {
+World plate(double fractureEnergy, ElementKind element) {
   World world;
   const TriangleMesh mesh = triangulate({{{0, 0}, {.04, 0}, {.04, .02}, {0, .02}}, {}}, 2e-3);
   BodySpec spec;
@@ -206,7 +207,6 @@ World plate(double fractureEnergy, ElementKind element, double minArea = 0) {
   spec.brittle.strengthScatter = .1;
   spec.element = element;
   for (const Vec2& x : mesh.nodes) spec.velocity.push_back({100 * (x.x - .02), 20 * x.y});
-  world.fracture.minFragmentArea = minArea;
   world.addBody(mesh, spec);
   return world;
 }

@@ -15,11 +15,11 @@ namespace yadefrag::test {
 namespace {
 
 /// What a crack does to a scene, as `World` does it.
-void crackEdges(World& world, std::vector<EdgeId> batch, SplitResult& result) {
+std::vector<EntryId> crackEdges(World& world, std::vector<EdgeId> batch, SplitResult& result) {
   std::sort(batch.begin(), batch.end());
   splitNodes(world.model, world.fracture.edges, world.surfaces, batch, result);
   world.contact.resize(world.model.nodes.size());
-  relink(world.surfaces, result.sides);
+  return relink(world.surfaces, result.sides);
 }
 
 void checkAll(const World& world) { checkLaws(world.model, world.fracture.edges, world.surfaces); }
@@ -58,6 +58,12 @@ void checkReport(const Model& model, const ContactSurfaces& surfaces, const Worl
     if (isOnSurface(after.surfaces, NodeId(n)) && !isOnSurface(surfaces, NodeId(n)))
       shown.emplace_back(n);
   ASSERT_EQ(result.onSurface, shown);
+  // What has been split is a corner.
+  for (std::size_t i = 0; i < result.originals.size(); ++i)
+    for (const NodeId node : {result.originals[i], NodeId(first + i)})
+      if (isOnSurface(after.surfaces, node)) {
+        ASSERT_FALSE(after.surfaces.isSmooth(after.surfaces.nodeSegment[node.value]));
+      }
 }
 
 /// What is left of the edges when a body is gone, in order.
@@ -108,9 +114,10 @@ std::size_t crackToPieces(RandomCracks& random) {
     const bool all = random() % often == 0;
     const Model model = all ? world.model : Model();
     const ContactSurfaces surfaces = all ? world.surfaces : ContactSurfaces();
-    crackEdges(world, batch, result);
+    const std::vector<EntryId> straightened = crackEdges(world, batch, result);
     if (!all) continue;
     checkReport(model, surfaces, world, result);
+    checkOnlyAppended(surfaces, world.surfaces, result.sides, straightened);
     expectKept(sums, sumsOf(world.model));
     if (!testing::Test::HasFatalFailure()) checkAll(world);
     if (random() % 40 != 0 || testing::Test::HasFatalFailure()) continue;

@@ -22,19 +22,6 @@
 
 namespace yadefrag::test {
 
-/// By triangle: the lowest triangle that is connected with it by nodes.
-inline std::vector<std::uint32_t> piecesOf(const Model& model) {
-  Groups groups(model.triangles.size());
-  std::vector<std::uint32_t> first(model.nodes.size(), ~0U), piece;
-  for (std::uint32_t e = 0; e < model.triangles.size(); ++e)
-    for (const NodeId node : model.triangles.nodes[e]) {
-      first[node.value] = std::min(first[node.value], e);
-      groups.join(first[node.value], e);
-    }
-  for (std::uint32_t e = 0; e < model.triangles.size(); ++e) piece.push_back(groups.find(e));
-  return piece;
-}
-
 inline double distanceToSide(Vec2 point, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
   const double at = std::clamp(dot(point - a, along) / dot(along, along), 0., 1.);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
 
+#include "core/disjoint_sets.hpp"
 #include "fracture/node_splitting.hpp"
 #include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
@@ -170,27 +170,18 @@ inline void checkEdges(const Model& model, const CrackEdges& edges) {
   }
 }
 
-/// Components of the graph of triangles, given pairs of them.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : top_(count), groups_(count) {
-    std::iota(top_.begin(), top_.end(), 0);
-  }
-  std::uint32_t find(std::uint32_t t) {
-    while (top_[t] != t) t = top_[t] = top_[top_[t]];
-    return t;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    groups_ -= a == b ? 0 : 1;
-    top_[std::max(a, b)] = std::min(a, b);
-  }
-  [[nodiscard]] std::size_t groups() const { return groups_; }
-
- private:
-  std::vector<std::uint32_t> top_;
-  std::size_t groups_;
-};
+/// By triangle: the number of the piece that nodes connect.
+inline std::vector<std::uint32_t> piecesOf(const Model& model) {
+  DisjointSets sets(model.triangles.size());
+  std::vector<std::uint32_t> first(model.nodes.size(), ~0U), piece;
+  for (std::uint32_t e = 0; e < model.triangles.size(); ++e)
+    for (const NodeId node : model.triangles.nodes[e]) {
+      first[node.value] = std::min(first[node.value], e);
+      sets.join(first[node.value], e);
+    }
+  sets.number(piece);
+  return piece;
+}
 
 /// The sides of all triangles on the boundary: without a twin, or parted from it. Found from the
 /// nodes alone, for elastic bodies as well.
@@ -250,13 +241,8 @@ inline void checkPieces(const Model& model, const CrackEdges& edges, const Conta
   }
   ASSERT_EQ(boundary.size(), twinless + 2 * parted);
 
-  Groups byNode(model.triangles.size()), byEdge(model.triangles.size());
-  std::vector<std::uint32_t> first(model.nodes.size(), ~0U);
-  for (std::uint32_t e = 0; e < model.triangles.size(); ++e)
-    for (const NodeId node : model.triangles.nodes[e]) {
-      first[node.value] = std::min(first[node.value], e);
-      byNode.join(first[node.value], e);
-    }
+  const std::vector<std::uint32_t> byNode = piecesOf(model);
+  DisjointSets byEdge(model.triangles.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Side a = edges.side(EdgeId(i), 0), b = edges.side(EdgeId(i), 1);
     if (edges.cracked[i] == 0) byEdge.join(a.element.value, b.element.value);
@@ -265,12 +251,14 @@ inline void checkPieces(const Model& model, const CrackEdges& edges, const Conta
     const Component& body = model.components[model.triangles.component[e].value];
     if (!body.brittle.cracks()) byEdge.join(body.firstTriangle, e);
   }
+  const std::uint32_t pieces = 1 + *std::ranges::max_element(byNode);
   const std::size_t doubled = 3 * model.triangles.size() + boundary.size();
   ASSERT_EQ(model.nodes.size() + model.triangles.size() + countLists(s.segmentNext),
-            doubled / 2 + 2 * byNode.groups());
+            doubled / 2 + 2 * pieces);
   // Triangles connected by edges are connected by nodes: with the same number the pieces are the
   // same.
-  ASSERT_EQ(byNode.groups(), byEdge.groups());
+  std::vector<std::uint32_t> numbers;
+  ASSERT_EQ(byEdge.number(numbers), pieces);
 }
 
 /// All of it.

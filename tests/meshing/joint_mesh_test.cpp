@@ -13,9 +13,9 @@
 
 #include "core/checks.hpp"
 #include "core/tolerances/mesh.hpp"
+#include "mesh/shapes.hpp"
 #include "meshing/size_field.hpp"
 #include "meshing/triangulate.hpp"
-#include "outline/polygons.hpp"
 
 namespace yadefrag {
 namespace {

@@ -14,9 +14,9 @@
 #include "core/random_bits.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
+#include "mesh/shapes.hpp"
 #include "meshing/curve_numbering.hpp"
 #include "meshing/triangulate.hpp"
-#include "outline/polygons.hpp"
 
 namespace yadefrag {
 namespace {
@@ -163,16 +163,6 @@ TEST(Triangulate, NodesInsideAreNotOnTheBoundary) {
     const double depth = std::min({p.x, p.y, 2 - p.x, 1 - p.y});
     EXPECT_TRUE(onLoop[i] ? depth == 0 : depth > .4 * size) << p.x << " " << p.y;
   }
-}
-
-TEST(Triangulate, SameInputSameBits) {
-  const Polygon polygon{circle({0, 0}, 1, 77), {box({-.2, -.3}, {.4, .1})}};
-  const TriangleMesh a = triangulate(polygon, .05);
-  const TriangleMesh b = triangulate(polygon, .05);
-  EXPECT_EQ(a.nodes, b.nodes);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.loops, b.loops);
-  EXPECT_EQ(a.minAngle, b.minAngle);
 }
 
 TEST(Triangulate, NumbersFollowTheCurve) {

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/checks.hpp"
+#include "mesh/shapes.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "outline/convex_hull.hpp"
 #include "outline/polygon.hpp"
-#include "outline/polygons.hpp"
 #include "outline/snap.hpp"
 
 namespace yadefrag::test {

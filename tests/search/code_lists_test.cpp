@@ -1,5 +1,5 @@
-// Sorted lists of codes. Filter boxes: what they exclude and what they decide, the two layouts
-// against a plain loop, and the instruction sets.
+// Sorted lists of codes and their comparisons. Filter boxes: what they exclude and decide, and the
+// instruction sets. Pairs against brute force: search_property_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -19,61 +19,14 @@
 namespace yadefrag {
 namespace {
 
-std::vector<std::uint64_t> codesOfKind(std::mt19937_64& random, int kind, std::size_t count) {
-  std::vector<std::uint64_t> codes(count);
-  for (std::uint64_t& code : codes) {
-    switch (kind) {
-      case 0:
-        code = random() >> 1;
-        break;  // even
-      case 1:
-        code = (random() % 2 << 60) + random() % 5000;
-        break;  // two clusters
-      case 2:
-        code = random() % 4;
-        break;  // many equal
-      case 3:
-        code = std::uint64_t{1} << (random() % 63);
-        break;  // every scale
-      default:
-        code = random() % 3 ? 12345 : (random() >> 1);
-        break;  // a crowd, outliers
-    }
-  }
-  std::sort(codes.begin(), codes.end());
-  return codes;
-}
-
-TEST(CodeDirectory, FindsWhatBinarySearchFinds) {
-  std::mt19937_64 random(3);
-  CountNothing nothing;
-  for (int k = 0; k < 2000; ++k) {
-    const auto codes = codesOfKind(random, k % 5, random() % 400);
-    CodeDirectory directory;
-    directory.build(codes);
-    const auto check = [&](std::uint64_t code) {
-      const auto expected = std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
-      ASSERT_EQ(directory.lowerBound(code, nothing), expected);
-    };
-    check(0);
-    check(~std::uint64_t{0});
-    for (const std::uint64_t code : codes) {
-      check(code);
-      check(code + 1);
-      check(code > 0 ? code - 1 : 0);
-    }
-    for (int i = 0; i < 50; ++i) check(random() >> (random() % 64));
-  }
-}
-
 TEST(CodeDirectory, LooksDoNotGrowWithTheList) {
   std::mt19937_64 random(4);
-  for (const int kind : {0, 1}) {
+  for (const bool isClustered : {false, true}) {
     std::vector<double> perLook;
     for (const std::size_t count : {1000, 1000000}) {
-      auto codes = codesOfKind(random, kind, count);
-      if (kind == 1)
-        for (std::uint64_t& code : codes) code = (code >> 60 << 60) + random() % (count * 10);
+      std::vector<std::uint64_t> codes(count);
+      for (std::uint64_t& code : codes)
+        code = isClustered ? (random() % 2 << 60) + random() % (count * 10) : random() >> 1;
       std::sort(codes.begin(), codes.end());
       CodeDirectory directory;
       directory.build(codes);
@@ -121,45 +74,6 @@ SortedList listOf(const std::vector<CodedSlot>& entries) {
   return list;
 }
 
-bool same(const SortedList& list, const std::vector<CodedSlot>& entries) {
-  bool all = list.size() == entries.size() && list.codes().back() == SortedList::kEnd;
-  for (std::size_t i = 0; all && i < entries.size(); ++i)
-    all = list.codes()[i] == entries[i].code && list.slot(i) == entries[i].slot;
-  return all;
-}
-
-TEST(SortedList, InsertionIsASortOfBoth) {
-  std::mt19937_64 random(6);
-  for (int k = 0; k < 2000; ++k) {
-    const std::uint64_t most = k % 3 ? 1000000 : 10;
-    auto all = randomList(random, random() % 300, most);
-    std::vector<CodedSlot> entries;
-    std::vector<CodedSlot> incoming;
-    for (const CodedSlot& entry : all) (random() % 4 ? entries : incoming).push_back(entry);
-    std::sort(entries.begin(), entries.end());
-    std::sort(incoming.begin(), incoming.end());
-    std::sort(all.begin(), all.end());
-    SortedList list = listOf(entries);
-    ASSERT_TRUE(same(list, entries));
-    CountNothing nothing;
-    list.insert(incoming, nothing);
-    ASSERT_TRUE(same(list, all));
-  }
-}
-
-TEST(SortedList, KeepsTheOrderOfWhatStays) {
-  std::mt19937_64 random(7);
-  auto entries = randomList(random, 500, 100);
-  std::sort(entries.begin(), entries.end());
-  SortedList list = listOf(entries);
-  const auto leaves = [](std::uint32_t slot) { return slot % 3 == 0; };
-  list.remove(leaves);
-  std::erase_if(entries, [&](const CodedSlot& entry) { return leaves(entry.slot); });
-  EXPECT_TRUE(same(list, entries));
-  list.clear();
-  EXPECT_TRUE(same(list, {}));
-}
-
 TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
   // Lemma A.2: a constant number per entry that moved, here a tenth of them all.
   std::mt19937_64 random(8);
@@ -193,23 +107,6 @@ std::vector<std::uint64_t> randomCodes(std::mt19937_64& random, std::size_t coun
   return codes;
 }
 
-TEST(RowBegins, AreLowerBounds) {
-  std::mt19937_64 random(3);
-  CountNothing uncounted;
-  for (int list = 0; list < 2000; ++list) {
-    const std::uint64_t most = 1 + random() % 5000;
-    const auto codes = randomCodes(random, random() % 300, most);
-    RowBegins::OfLevel places;
-    std::uint64_t code = 0;
-    for (int look = 0; look < 50; ++look) {
-      code = random() % 4 ? code + random() % 40 : random() % (most + 10);
-      const int row = static_cast<int>(random() % 20);
-      const auto wanted = std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
-      ASSERT_EQ(places.lowerBound(row, codes, code, uncounted), wanted) << list;
-    }
-  }
-}
-
 /// Lemma A.3 with neighbours in the order of the sweep: a constant number of steps for each.
 TEST(RowBegins, AdvanceInAFewStepsEach) {
   std::mt19937_64 random(4);
@@ -219,48 +116,6 @@ TEST(RowBegins, AdvanceInAFewStepsEach) {
   RowBegins::OfLevel places;
   for (std::size_t i = 0; i < kCodes; ++i) places.lowerBound(0, codes, codes[i] + 500, counted);
   EXPECT_LE(counted.total().range, 3 * kCodes);
-}
-
-template <int Dim>
-void expectAdjacentRows() {
-  using Rows = SweptRows<Dim>;
-  typename Rows::Cell cell;
-  cell.fill(7);
-  const std::uint64_t code = Rows::encode(cell);
-  ASSERT_TRUE(Rows::isInner(code));
-  std::vector<std::uint64_t> found;
-  for (int k = 0; k < Rows::kLaterRows; ++k) {
-    const CodeRange row = Rows::laterRow(code, k);
-    for (std::uint64_t c = row.start; c <= row.stop; ++c) found.push_back(c);
-  }
-  std::vector<std::uint64_t> wanted;
-  constexpr int edge = Rows::kPartsOfX;
-  for (int n = 0; n < (Dim == 2 ? 3 : 9); ++n)
-    for (int x = -edge; x <= edge; ++x) {
-      typename Rows::Cell other = cell;
-      other[0] += static_cast<std::uint32_t>(x);
-      for (int axis = 1, rest = n; axis < Dim; ++axis, rest /= 3)
-        other[axis] += static_cast<std::uint32_t>(rest % 3 - 1);
-      if (Rows::encode(other) > code + edge) wanted.push_back(Rows::encode(other));
-    }
-  std::sort(found.begin(), found.end());
-  std::sort(wanted.begin(), wanted.end());
-  EXPECT_EQ(found, wanted);
-}
-
-TEST(SweptRows, LaterRowsAreTheAdjacentBoxesWithGreaterCodes) {
-  expectAdjacentRows<2>();
-  expectAdjacentRows<3>();
-}
-
-TEST(SweptRows, BoxesAtTheEndsOfACoordinateAreNotInner) {
-  using Rows = SweptRows<3>;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const std::uint32_t end : {std::uint32_t{0}, Rows::Code::kMask}) {
-      Rows::Cell cell{5, 5, 5};
-      cell[axis] = end;
-      EXPECT_FALSE(Rows::isInner(Rows::encode(cell)));
-    }
 }
 
 /// Boxes on a coarse grid, so that many touch exactly; some differ in the last bits only.
@@ -320,30 +175,6 @@ Filters filtersOf(const std::vector<Box>& boxes) {
   filters.resize(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) filters.set(i, FilterBox::of(boxes[i], kScale));
   return filters;
-}
-
-TEST(FilterBox, BothLayoutsVisitTheSameBoxesOfARange) {
-  std::mt19937_64 random(2);
-  for (int round = 0; round < 300; ++round) {
-    const std::vector<Box> boxes = touchingBoxes(random, 1 + random() % 60);
-    const std::vector<std::uint64_t> codes = codesOf(boxes);
-    const auto list = filtersOf<FilterList>(boxes);
-    const auto blocks = filtersOf<FilterBlocks>(boxes);
-    const FilterBox box = FilterBox::of(boxes[random() % boxes.size()], kScale);
-    const std::size_t begin = random() % boxes.size();
-    const std::uint64_t stop = random() % 45;
-    std::vector<std::size_t> wanted;
-    for (std::size_t j = begin; j < boxes.size() && codes[j] <= stop; ++j)
-      if (mayOverlap(box, list[j])) wanted.push_back(j);
-    EXPECT_EQ(nearOnes(list, box, codes, begin, 0, stop), wanted);
-    EXPECT_EQ(nearOnes(blocks, box, codes, begin, 0, stop), wanted);
-    // Blocks may begin before the range: what has a lower code does not count.
-    const std::size_t early = begin / FilterBlocks::kTogether * FilterBlocks::kTogether;
-    std::vector<std::size_t> all;
-    for (std::size_t j = early; j < boxes.size() && codes[j] <= stop; ++j)
-      if (codes[j] >= codes[begin] && mayOverlap(box, list[j])) all.push_back(j);
-    EXPECT_EQ(nearOnes(blocks, box, codes, early, codes[begin], stop), all);
-  }
 }
 
 TEST(FilterBox, EveryInstructionSetCollectsTheSameBoxes) {

@@ -239,29 +239,6 @@ std::vector<Box> evenBoxes(std::size_t count, std::mt19937_64& random) {
   return boxes;
 }
 
-TEST(IncrementalSearch, SameOrderForAnyNumberOfThreads) {
-  const std::size_t found = sameForAnyThreads([](int threads) {
-    std::mt19937_64 random(4);
-    std::vector<Box> boxes = evenBoxes(20000, random);
-    IncrementalSearch search(SearchMethod::kLebesgue);
-    search.setThreads(threads);
-    search.update(boxes);
-    std::vector<BoxPair> pairs;
-    search.findPairs(pairs);
-    for (int round = 0; round < 5; ++round) {
-      std::vector<BoxId> changed;
-      for (std::size_t i = static_cast<std::size_t>(round); i < boxes.size(); i += 7) {
-        boxes[i].max[0] += .5;
-        changed.push_back(BoxId(i));
-      }
-      search.change(boxes, changed);
-      search.findPairsOfChanged(pairs);
-    }
-    return pairs;
-  });
-  EXPECT_GT(found, 10000U);
-}
-
 /// Comparisons of changes by one box among `count`.
 double comparisonsOfOneMove(std::size_t count) {
   std::mt19937_64 random(5);

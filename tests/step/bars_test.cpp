@@ -10,7 +10,6 @@
 #include "core/checks.hpp"
 #include "core/tolerances/solver.hpp"
 #include "dynamics/element_state.hpp"
-#include "step/blocks.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

@@ -210,14 +210,5 @@ TEST(Collapse, NoElementCollapsesAndEnergyIsKept) {
     }
 }
 
-TEST(Collapse, AStepThatIsRefusedSaysWhy) {
-  World world = falling(2, ElementKind::kLinear);
-  const double dt = .8 * world.criticalTimeStep();
-  std::string text;
-  for (int i = 0; i < 100 && text.empty(); ++i) text = saidBy<RunError>([&] { world.step(dt); });
-  EXPECT_NE(text.find("is pressed to"), std::string::npos) << text;
-  EXPECT_GT(flattest(world.model), tolerance::kBarrierBegin);
-}
-
 }  // namespace
 }  // namespace yadefrag::test

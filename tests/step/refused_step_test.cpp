@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/checks.hpp"
-#include "core/failing_memory.hpp"
 #include "extremes/any_world.hpp"
 #include "extremes/limits.hpp"
 #include "step/bodies.hpp"

@@ -1,13 +1,14 @@
+// Sides that a mesh begins with. Single relinkings by hand; meshes that crack to pieces:
+// fracture/node_splitting_test.cpp.
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-#include <random>
 #include <vector>
 
-#include "cut_mesh.hpp"
-#include "meshing/structured.hpp"
+#include "contact/pass_rule.hpp"
+#include "step/entry_pairs.hpp"
 #include "surface/contact_surface.hpp"
+#include "surface/relink.hpp"
 #include "surface_checks.hpp"
 
 namespace yadefrag {
@@ -59,147 +60,163 @@ TEST(ContactSurfaces, PiecesJoinWithoutGaps) {
     }
 }
 
-ContactSurfaces randomSurfaces(std::mt19937& random, std::vector<ComponentId>& ownerOfNode) {
-  ContactSurfaces s;
-  std::vector<NodeId> all;
-  const std::size_t loops = 1 + random() % 6;
-  for (std::size_t k = 0; k < loops; ++k) {
-    std::vector<NodeId> nodes(3 + random() % 5);
-    std::vector<std::uint8_t> smooth(nodes.size());
-    const ComponentId owner(std::size_t{random() % 3});
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      ownerOfNode.insert(ownerOfNode.end(), 1 + random() % 2, owner);  // with inner nodes
-      nodes[i] = NodeId(ownerOfNode.size() - 1);
-      smooth[i] = random() % 2;
-    }
-    EXPECT_EQ(s.addLoop(nodes, smooth, owner), k);
+// --- Single relinkings by hand; meshes that crack to pieces: fracture/node_splitting_test.cpp.
+
+const ComponentId kBody(std::size_t{0});
+const std::vector<Piece> kHalves{Piece::kFirstHalf, Piece::kSecondHalf};
+const std::vector<Piece> kToArc{Piece::kFirstHalf, Piece::kArc};
+
+SegmentId segment(std::size_t number) { return SegmentId(number); }
+NodeId node(std::size_t number) { return NodeId(number); }
+
+/// A square of 2 m, whose lower side has a smooth node in its middle, from which a crack runs 1 m
+/// into the body: node 1 is doubled as node 5, and node 6 is the tip.
+struct Cracked {
+  ContactSurfaces surfaces = oneLoop({0, 1, 0, 0, 0});
+  std::vector<Vec2> positions{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {1, 1}};
+  std::vector<SurfaceSide> sides{{segment(0), node(0), node(1), kBody},
+                                 {SegmentId::none(), node(1), node(6), kBody},
+                                 {SegmentId::none(), node(6), node(5), kBody},
+                                 {segment(1), node(5), node(2), kBody}};
+
+  Cracked() {
+    const ContactSurfaces before = surfaces;
+    const std::vector<EntryId> straightened = relink(surfaces, sides);
+    checkCrackedLinks(surfaces);
+    checkPiecesJoin(surfaces);
+    checkOnlyAppended(before, surfaces, sides, straightened);
   }
-  s.nodeSegment.resize(ownerOfNode.size(), SegmentId::none());
-  return s;
+  /// The first entry of a segment, and the one after it.
+  [[nodiscard]] EntryId first(std::size_t of) const { return surfaces.segmentEntry[of]; }
+  [[nodiscard]] EntryId second(std::size_t of) const { return surfaces.next[first(of).value]; }
+};
+
+TEST(Relink, ACrackFromASmoothNodeMakesHalvesBesideIt) {
+  const Cracked cracked;
+  const ContactSurfaces& s = cracked.surfaces;
+  EXPECT_EQ(s.segments(), 7U);
+  EXPECT_EQ(piecesOf(s, segment(0)), kHalves);
+  EXPECT_EQ(piecesOf(s, segment(1)), kHalves);
+  // Inwards along one face, back along the other.
+  EXPECT_EQ(s.segmentNext[0], segment(5));
+  EXPECT_EQ(s.segmentNext[5], segment(6));
+  EXPECT_EQ(s.segmentNext[6], segment(1));
 }
 
-/// Pieces and nodes of the entries of the components that stay, in order.
-std::vector<std::uint32_t> fingerprint(const ContactSurfaces& s, ComponentId gone) {
-  std::vector<std::uint32_t> print;
-  for (std::size_t e = 0; e < s.entries(); ++e) {
-    if (s.component[e] == gone) continue;
-    NodeId nodes[3];
-    const int count = s.pieceNodes(EntryId(e), nodes);
-    for (int i = 0; i < count; ++i) print.push_back(nodes[i].value);
-    print.push_back(static_cast<std::uint32_t>(s.piece[e]));
+TEST(Relink, LoopNumbersAreThoseOfTheLoopsPiecesWereMadeIn) {
+  ContactSurfaces s = oneLoop({0, 0, 0, 0});
+  const std::vector<NodeId> hole{node(4), node(5), node(6), node(7)};
+  EXPECT_EQ(s.addLoop(hole, std::vector<std::uint8_t>(4), kBody), 1U);
+  const auto loopAt = [&](std::size_t of) { return s.loop[s.segmentEntry[of].value]; };
+  const SegmentId added = SegmentId::none();
+  // A slit inside has the component's lowest number, a crack from the hole that of the hole.
+  relink(s, std::vector<SurfaceSide>{{added, node(8), node(9), kBody},
+                                     {added, node(9), node(10), kBody},
+                                     {added, node(10), node(11), kBody},
+                                     {added, node(11), node(8), kBody}});
+  for (std::size_t i = 8; i < 12; ++i) EXPECT_EQ(loopAt(i), 0U);
+  relink(s, std::vector<SurfaceSide>{{segment(7), node(7), node(4), kBody},
+                                     {added, node(4), node(13), kBody},
+                                     {added, node(13), node(12), kBody},
+                                     {segment(4), node(12), node(5), kBody}});
+  EXPECT_EQ(loopAt(12), 1U);
+  EXPECT_EQ(loopAt(13), 1U);
+  checkCrackedLinks(s);
+}
+
+TEST(Relink, ListedWithoutAChangeNothingHappens) {
+  Cracked cracked;
+  ContactSurfaces& s = cracked.surfaces;
+  const ContactSurfaces before = s;
+  std::vector<SurfaceSide> all;
+  for (std::size_t i = 0; i < s.segments(); ++i)
+    all.push_back({segment(i), s.segmentNode[i], s.segmentNode[s.segmentNext[i].value], kBody});
+  for (const auto& sides : {all, std::vector<SurfaceSide>{}}) {
+    relink(s, sides);
+    EXPECT_EQ(before.segmentNext, s.segmentNext);
+    EXPECT_EQ(before.nodeSegment, s.nodeSegment);
+    EXPECT_EQ(before.next, s.next);
+    EXPECT_EQ(before.prev, s.prev);
+    EXPECT_TRUE(before.piece == s.piece);
   }
-  return print;
 }
 
-TEST(ContactSurfaces, RemovedComponentLeavesTheOthersAsTheyWere) {
-  std::mt19937 random(3);
-  for (int k = 0; k < 300; ++k) {
-    std::vector<ComponentId> owner;
-    ContactSurfaces s = randomSurfaces(random, owner);
-    const ComponentId gone(std::size_t{random() % 3});
-    const auto before = fingerprint(s, gone);
-    std::vector<std::uint8_t> isGone(3);
-    isGone[gone.value] = 1;
-    s.removeComponents(isGone);
-    checkLinks(s);
-    checkPiecesJoin(s);
-    EXPECT_EQ(fingerprint(s, ComponentId::none()), before);
+TEST(Relink, ANodeThatLeavesTheBoundaryHasNoSegment) {
+  ContactSurfaces s = oneLoop({0, 1, 1, 0});
+  // Node 1's two sides go on at a new node 7.
+  const SurfaceSide sides[] = {
+      {SegmentId(std::size_t{0}), NodeId(std::size_t{0}), NodeId(std::size_t{7}), kBody},
+      {SegmentId(std::size_t{1}), NodeId(std::size_t{7}), NodeId(std::size_t{2}), kBody}};
+  relink(s, sides);
+  checkLinks(s);
+  checkPiecesJoin(s);
+  EXPECT_EQ(s.nodeSegment[1], SegmentId::none());
+  EXPECT_EQ(s.nodeSegment[7], SegmentId(std::size_t{1}));
+  EXPECT_EQ(s.nodeSegment.size(), 8U);
+  EXPECT_EQ(piecesOf(s, SegmentId(std::size_t{0})), kHalves);
+  EXPECT_EQ(piecesOf(s, SegmentId(std::size_t{1})), kToArc);
+}
 
-    std::vector<NodeId> renumbered(owner.size(), NodeId::none());
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < owner.size(); ++i)
-      if (owner[i] != gone) renumbered[i] = NodeId(left++);
-    s.renumberNodes(renumbered, left);
-    checkLinks(s);
-    EXPECT_EQ(s.nodeSegment.size(), left);
-
-    const NodeId more[] = {NodeId(left), NodeId(left + 1), NodeId(left + 2)};
-    const std::uint8_t corners[] = {0, 1, 0};
-    s.addLoop(more, corners, gone);
-    checkLinks(s);
-    checkPiecesJoin(s);
+TEST(Relink, TwoHalvesBetweenCornersAreTheSegment) {
+  const Cracked cracked;
+  const EntryId first = cracked.first(0), second = cracked.second(0);
+  const PieceGeometry geometry(cracked.surfaces, cracked.positions);
+  for (const double xi : {0., .25, .5, .75, 1.})
+    EXPECT_LT(norm(geometry.point(xi < .5 ? first : second, xi) - Vec2{xi, 0}), 1e-15);
+  EXPECT_DOUBLE_EQ(geometry.length(first) + geometry.length(second), 1);
+  EXPECT_EQ(geometry.ends(first).end, geometry.ends(second).begin);
+  EXPECT_EQ(geometry.box(first).max[0], .5);
+  EXPECT_EQ(geometry.box(second).min[0], .5);
+  EXPECT_EQ(normalOf(geometry, second, .5), (Vec2{0, -1}));
+  // A point over the segment has its foot on one of the two, with the same gap on both.
+  for (const Vec2 point : {Vec2{.2, .1}, Vec2{.7, .1}}) {
+    EXPECT_EQ(geometry.foot(first, point).inside, point.x < .5);
+    EXPECT_EQ(geometry.foot(second, point).inside, point.x > .5);
+    EXPECT_EQ(geometry.foot(first, point).gap, geometry.foot(second, point).gap);
   }
 }
 
-// --- Meshes that crack edge by edge until every triangle is on its own.
-
-using Side = CutMesh::Side;
-
-/// Two bodies of all kinds of nodes.
-CutMesh randomBodies(std::mt19937& random) {
-  CutMesh mesh;
-  const unsigned smoothOfEight = random() % 9;
-  for (std::size_t body = 0; body < 2; ++body) {
-    const int nx = 2 + static_cast<int>(random() % 8), ny = 2 + static_cast<int>(random() % 8);
-    const auto pattern = random() % 2 == 0 ? QuadPattern::kUnionJack : QuadPattern::kCrossed;
-    const double left = 20. * static_cast<double>(body);
-    mesh.addBody(structuredRectangle({left, 0}, {left + nx, 1. * ny}, nx, ny, pattern),
-                 ComponentId(body), [&](CutMesh::Row) { return random() % 8 < smoothOfEight; });
+TEST(Relink, ContactTakesTwoHalvesBetweenCorners) {
+  Cracked cracked;
+  ContactSurfaces& s = cracked.surfaces;
+  std::vector<NodeId> finer;
+  for (std::size_t k = 0; k < 32; ++k) {
+    finer.push_back(node(7 + k));
+    const double along = .125 * static_cast<double>(k % 8);
+    cracked.positions.push_back(Vec2{9, 0} + (k < 8    ? Vec2{along, 0}
+                                              : k < 16 ? Vec2{1, along}
+                                              : k < 24 ? Vec2{1 - along, 1}
+                                                       : Vec2{0, 1 - along}));
   }
-  return mesh;
-}
+  s.addLoop(finer, std::vector<std::uint8_t>(32), ComponentId(std::size_t{1}));
+  const EntryId first = cracked.first(0), second = cracked.second(0);
+  Model model;
+  Component component;
+  component.selfContact = true;
+  component.brittle.tensileStrength = 1;
+  model.components = {component, Component{}};
+  PassRule rule;
+  rule.update(s, cracked.positions, {.passes = 1});
+  // Even the point at which two halves go straight on is a slave: the next crack may make it a
+  // corner.
+  const EntryId other = s.segmentEntry[7];
+  EXPECT_TRUE(rule.mayBeSlave(model, s, second, other));
+  EXPECT_TRUE(rule.mayBeSlave(model, s, other, second));
 
-std::vector<Side> shuffledEdges(const CutMesh& mesh, std::mt19937& random) {
-  std::vector<Side> edges;
-  mesh.forEachSide(0, [&](Side side) {
-    const Side other = mesh.at(mesh.across, side);
-    if (other.triangle != CutMesh::kOutside && side.triangle < other.triangle)
-      edges.push_back(side);
-  });
-  std::shuffle(edges.begin(), edges.end(), random);
-  return edges;
-}
-
-void checkListed(const CutMesh& mesh, const std::vector<SurfaceSide>& sides,
-                 std::size_t segmentsBefore) {
-  std::size_t appended = segmentsBefore;
-  for (const SurfaceSide& side : sides) {
-    const bool isNew = side.segment == SegmentId::none();
-    checkSide(mesh, isNew ? SegmentId(appended++) : side.segment, side.first, side.last);
-    if (testing::Test::HasFatalFailure()) return;
-  }
-  ASSERT_EQ(appended, mesh.surfaces.segments());
-}
-
-/// Cracks all edges, one or a few at a time; returns how often it relinked.
-std::size_t crackAll(std::mt19937& random) {
-  CutMesh mesh = randomBodies(random);
-  const std::vector<Side> edges = shuffledEdges(mesh, random);
-  const std::size_t most = random() % 4 == 0 ? 6 : 1;
-  const std::size_t often = 1 + random() % 400;  // how many times, about, until all is checked
-  std::size_t times = 0;
-  checkMesh(mesh);
-  for (std::size_t i = 0; i < edges.size() && !testing::Test::HasFatalFailure();) {
-    const std::size_t count = std::min(edges.size() - i, 1 + random() % most);
-    const auto first = edges.begin() + static_cast<std::ptrdiff_t>(i);
-    const std::vector<Side> next(first, first + static_cast<std::ptrdiff_t>(count));
-    i += count;
-    const bool all = random() % often == 0;
-    const ContactSurfaces before = all ? mesh.surfaces : ContactSurfaces();
-    const std::size_t segments = mesh.surfaces.segments(), nodes = mesh.positions.size();
-    const std::vector<SurfaceSide> sides = mesh.crack(next);
-    times += sides.empty() ? 0 : 1;
-    const std::vector<EntryId> straightened = relink(mesh.surfaces, sides);
-    // New nodes move apart, so that it shows if a piece is on the wrong one.
-    for (std::size_t n = nodes; n < mesh.positions.size(); ++n)
-      mesh.positions[n] += Vec2{.001 * (random() % 100), .001 * (random() % 100)};
-    checkListed(mesh, sides, segments);
-    if (!all || testing::Test::HasFatalFailure()) continue;
-    checkOnlyAppended(before, mesh.surfaces, sides, straightened);
-    if (!testing::Test::HasFatalFailure()) checkMesh(mesh);
-  }
-  if (testing::Test::HasFatalFailure()) return times;
-  checkMesh(mesh);
-  EXPECT_EQ(countPieces(mesh), mesh.triangles.size());
-  EXPECT_EQ(countLists(mesh.surfaces.next), mesh.triangles.size());
-  EXPECT_EQ(mesh.positions.size(), 3 * mesh.triangles.size());
-  return times;
-}
-
-TEST(RelinkRandom, MeshesCrackToPieces) {
-  std::mt19937 random(11);
-  std::size_t times = 0;
-  while (times < 100000 && !HasFatalFailure()) times += crackAll(random);
+  const auto pairsOf = [&](EntryId a, EntryId b) {
+    const std::vector<BoxPair> overlapping{orderedPair(BoxId(a.value), BoxId(b.value))};
+    std::vector<SlaveMaster> pairs;
+    selectPairs(model, s, rule, cracked.positions, .1, overlapping, pairs);
+    return pairs;
+  };
+  // The halfpoint is the first half's own end; the corner is not near the second half.
+  EXPECT_TRUE(pairsOf(first, second).empty());
+  // The two faces of the crack: each one's beginning is in the other's halo, as its end, but not
+  // the tip, where the one ends and the other begins.
+  const EntryId in = cracked.first(5), out = cracked.first(6);
+  const std::vector<SlaveMaster> faces = pairsOf(in, out);
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_EQ(faces[0], (SlaveMaster{in, out}));
 }
 
 }  // namespace

@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "surface/contact_surface.hpp"
 #include "surface/piece_geometry.hpp"
+#include "surface/relink.hpp"
 
 namespace yadefrag {
 
@@ -129,6 +132,38 @@ inline void checkPiecesJoin(const ContactSurfaces& s) {
     const auto following = weights(s.slave(s.next[e]));
     EXPECT_EQ(weights(s.master(EntryId(e), range.begin)), own);
     EXPECT_EQ(weights(s.master(EntryId(e), range.end)), following);
+  }
+}
+
+/// Numbers are for ever: what may differ after a relinking is little.
+inline void checkOnlyAppended(const ContactSurfaces& before, const ContactSurfaces& after,
+                              std::span<const SurfaceSide> sides,
+                              std::vector<EntryId> straightened) {
+  std::sort(straightened.begin(), straightened.end());
+  std::vector<EntryId> expected;
+  for (std::size_t e = 0; e < before.entries(); ++e) {
+    ASSERT_TRUE(before.entrySegment[e] == after.entrySegment[e] &&
+                before.loop[e] == after.loop[e] && before.component[e] == after.component[e]);
+    ASSERT_TRUE(before.piece[e] == after.piece[e] ||
+                (before.piece[e] == Piece::kArc && after.piece[e] == Piece::kSecondHalf));
+    if (before.piece[e] != after.piece[e]) expected.emplace_back(e);
+    ASSERT_EQ(weights(before.slave(EntryId(e))).size(), weights(after.slave(EntryId(e))).size());
+  }
+  ASSERT_EQ(straightened, expected);
+  for (std::size_t e = before.entries(); e < after.entries(); ++e) {
+    const bool isOld = after.entrySegment[e].value < before.segments();
+    ASSERT_EQ(after.piece[e], isOld ? Piece::kFirstHalf : Piece::kSegment);
+  }
+  std::vector<bool> listed(after.segments());
+  for (const SurfaceSide& side : sides)
+    if (side.segment != SegmentId::none()) listed[side.segment.value] = true;
+  for (std::size_t i = 0; i < before.segments(); ++i) {
+    if (listed[i]) continue;
+    ASSERT_TRUE(before.segmentNode[i] == after.segmentNode[i] &&
+                before.segmentEntry[i] == after.segmentEntry[i] &&
+                before.isSmooth(SegmentId(i)) == after.isSmooth(SegmentId(i)) &&
+                before.segmentNext[i] == after.segmentNext[i] &&
+                before.segmentPrev[i] == after.segmentPrev[i]);
   }
 }
 

@@ -9,7 +9,7 @@ import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', 'pkg', 'helpers'))
 import yadefrag  # noqa: E402
-from fe_impact import brittle, heapSpheres, impact  # noqa: E402
+from fe_scene import brittle, brittleImpact, heapSpheres  # noqa: E402
 
 kSquare = yadefrag.rectangle((2, 2), (2.01, 2.01))
 
@@ -26,7 +26,7 @@ def readAndChange(solver, folder):
 
 
 def main(folder):
-    solver = impact('LebesgueCollider', threads=1, fractureEnergy=0, strengthScatter=.1)
+    solver = brittleImpact('LebesgueCollider', threads=1, fractureEnergy=0, strengthScatter=.1)
     heapSpheres()
     yadefrag.runSteps(100)
     O.run()

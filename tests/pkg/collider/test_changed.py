@@ -70,39 +70,11 @@ def _searches(collider, steps):
             yield collider.searched
 
 
-@pytest.mark.long
-def testFewAreSearchedWhereFewMove():
-    fast, collider = _cloud(2000, 1)
-    stepAndCheck()
-    assert collider.searched == 2000
-    counts = list(_searches(collider, 60))
-    assert len(counts) >= 5
-    # All are searched once in a while, when the few have cost as much.
-    assert sum(n > len(fast) for n in counts) <= len(counts) / 5
-
-
 @pytest.mark.parametrize('seed', range(3))
 def testSamePairsWhileSomeMove(seed):
     """A few fast ones among slow ones: most searches are of few, some of all."""
     _, collider = _cloud(600, seed, speed=.0005)
     assert sum(0 < count < 600 for count in _searches(collider, 80)) >= 5
-
-
-@pytest.mark.parametrize('redirection', [False, True])
-def testSamePairsWhileBodiesComeAndGo(redirection):
-    rng = random.Random(3)
-    _, collider = _cloud(500, 4, speed=.0005)
-    O.bodies.enableRedirection = redirection
-    O.step()
-    some = 0
-    for step in range(60):
-        addSpheres([(rng.random(), rng.random(), rng.random()) for _ in range(3)], [RADIUS] * 3)
-        for id in rng.sample([b.id for b in O.bodies], 3):
-            O.bodies.erase(id)
-        stepAndCheck()
-        _check(collider)
-        some += collider.searched < 50
-    assert some >= 30
 
 
 def testRadiiThatGrowAndShrink():
@@ -246,24 +218,6 @@ def testSpeedsWithoutAPathAreNoExceptions(speed):
     collider()
     assert np.isfinite(np.array(body.bound.refPos)).all()
     assert body.bound.sweepLength == collider.verletDist
-
-
-def testFlightsThatMeetAreFoundInTime():
-    """Two beams cross: first contacts at the step of the oracle, turned by any angle."""
-    for turn in np.linspace(0, math.pi, 5):
-        clear()
-        O.dt = 2e-3
-        c, s = math.cos(turn), math.sin(turn)
-        rows = np.arange(-20, 0) * 3. * LARGE
-        places = np.concatenate([[(c * x, s * x, .3 * x) for x in rows], [(-s * x, c * x, -.3 * x) for x in rows]])
-        speeds = np.concatenate([np.tile((c, s, .3), (20, 1)), np.tile((-s, c, -.3), (20, 1))])
-        addSpheres(places, np.full(40, LARGE), 2 * speeds)
-        setEngines(makeCollider('LebesgueCollider'))
-        met = 0
-        for _ in range(500):
-            stepAndCheck()
-            met += bool(realPairs())
-        assert met > 50
 
 
 def _flightBesideARow():

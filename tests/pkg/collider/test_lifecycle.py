@@ -152,11 +152,6 @@ def testThreads(collider, scene):
     assert min(counts) >= kScenes[scene]
 
 
-def testIntegratorsAgree(collider):
-    found = dump(collider.name, 1)
-    assert found['NewtonIntegrator']['moments'] == found['CurveIntegrator']['moments']
-
-
 def testTwoProcesses(collider):
     """Nothing depends on addresses: two runs of one scene are the same, order included."""
     assert dump(collider.name, 1)['mixed'] == dump.__wrapped__(collider.name, 1, ('mixed',))['mixed']
@@ -205,19 +200,6 @@ def testTwiceAndAsTheRivals(collider, periodic):
     first, second = run(collider, periodic), run(collider, periodic)
     assert first == second and len(first[0][-1]) > 50
     assert real(first) == real(run(collider.rival, periodic))
-
-
-def testAfterReload(collider):
-    """Loaded from memory, the scene gives the same list once more."""
-    build(collider, True)
-    O.run(100, True)
-    O.saveTmp('constant')
-    lists = []
-    for _ in range(2):
-        O.loadTmp('constant')
-        O.run(400, True)
-        lists.append(inOrder())
-    assert lists[0] == lists[1] != []
 
 
 # --- bad input

@@ -201,27 +201,3 @@ def testFacetsInTheCell(collider):
     for step, (a, b) in enumerate(zip(expected, found)):
         assert a.items() <= b.items(), f'step {step}: {sorted(a.items() - b.items())[:3]}'
     assert any(max(pair) >= 80 for pairs in expected for pair in pairs)
-
-
-def testPeriodicComeAndGo(collider):
-    rng = np.random.default_rng(9)
-    gas(kSheared, n=100)
-    setEngines(collider())
-    for k in range(25):
-        for i in rng.integers(0, len(O.bodies), 2):
-            if O.bodies[int(i)]:
-                O.bodies.erase(int(i))
-        addSpheres(rng.uniform(-2, 2, (3, 3)), [.06] * 3, rng.normal(size=(3, 3)) * .01)
-        stepAndCheck()
-
-
-def testTwoContactsAcrossTheCell(collider):
-    """In a cell of four diameters a sphere has neighbours on both of its sides, one by image."""
-    periodic()
-    addSpheres([(.01, .5, .5), (.24, .5, .5), (.79, .5, .5), (.5, .01, .5), (.5, .99, .5)], [.12] * 3 + [.1] * 2)
-    setEngines(collider())
-    assert stepAndCheck(steps=2) == 6
-    assert scenes.realPairs()[0, 2] == (-1, 0, 0)
-    assert scenes.realPairs()[3, 4] == (0, -1, 0)
-
-

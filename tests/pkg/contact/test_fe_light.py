@@ -177,19 +177,6 @@ def test_clumpIsOneBody(kind):
     balance.check(1, angular=1e-6)
 
 
-def test_facetAloneIsABodyToo():
-    solver = fe()
-    blockOf(solver)
-    number = O.bodies.append(utils.facet([(-.01, .02, 1), (-.01, .02, -1), (-.002, .09, 0)], material='m', fixed=False))
-    body = free(O.bodies[number], mass=.5, velocity=(1, 0))
-    body.state.inertia = (1e-3, 1e-3, 1e-3)
-    run(solver)
-    balance = Balance(solver, [body])
-    steps(int(.03 / O.dt))
-    assert body.state.vel[0] < .5
-    balance.check(.5, angular=1e-6)
-
-
 @pytest.mark.parametrize('friction', [0, .6])
 @pytest.mark.parametrize('mass', [1e-3, 1, 100])
 def test_boxBetweenTwoBlocks(mass, friction):
@@ -206,18 +193,6 @@ def test_boxBetweenTwoBlocks(mass, friction):
     assert one < two
     # What sweeps leave matters most to a light box.
     balance.check(5, angular=3e-5 if mass < 1 else 1e-5 if friction else 1e-6, friction=1e-4 if mass < 1 else 1e-6)
-
-
-def test_twoBoxesAndABlockBetween():
-    solver = fe()
-    blockOf(solver)
-    left = box((-.051, .04), (.05, .03), mass=2, velocity=(1, 0), turning=3)
-    right = box((.152, .07), (.05, .05), mass=.2, velocity=(-2, .5))
-    run(solver)
-    balance = Balance(solver, [left, right])
-    steps(int(.02 / O.dt))
-    assert left.state.vel[0] < .9 and right.state.vel[0] > -1
-    balance.check(2, angular=1e-6)
 
 
 def test_boxOnACrackingBlock():

@@ -75,12 +75,6 @@ def test_noneIsDeeperThanTold(kind, ratio):
         assert found < 1e-3 * SIZE / ratio
 
 
-def test_onePassOverlapsUnseen():
-    """Only the triangles show it, as fe.deepestOverlap() does."""
-    found, told = deepestOfImpact('discs', 3.26, 'regular', .3, passes=1)
-    assert found > .005 * SIZE and told < 1e-5 * SIZE
-
-
 @pytest.mark.parametrize('passes', [None, 2])
 def test_deepOverlapsOfOnePassAreTold(passes):
     """A corner of fine elements beside a corner of coarse ones: with the default the coarse points enter; the
@@ -283,14 +277,6 @@ def test_spheresAmongSegments(collider):
     kinds = {tuple(sorted(type(O.bodies[k].shape).__name__ for k in (i.id1, i.id2))) for i in O.interactions.all()}
     assert kinds == {('Sphere', 'SurfaceSegment')}
     assert len(list(O.interactions)) >= 2
-
-
-def test_withoutSegmentsThereAreNoPairs(collider):
-    finder = collider([w.Bo1_Sphere_Aabb()])
-    O.bodies.append([newBall((x, 0), .6, w.FEMat()) for x in range(3)])
-    sphereEngines(finder)
-    O.step()
-    assert finder.entryPairs() == [] and len(O.interactions.all()) == 2
 
 
 def test_pairsBecomeInteractionsElsewhereAndGo(collider):

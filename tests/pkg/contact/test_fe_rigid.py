@@ -1,14 +1,17 @@
-"""YADE's Wall, Box and Facet are rigid bodies to FE bodies: contact forces act on both."""
+"""YADE's Wall, Box and Facet are rigid bodies to FE bodies: contact forces act on both. FESolver in YADE's scenes: other scenes,
+bodies that come and go."""
+import builtins
 import math
+import os
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, O, run, steps
-from yade import utils
-from yade import wrapper as w
+from fe_scene import fe, finder, impact, newBall, O, ready, run, steps
+from yade import utils, wrapper as w
 from yade.minieigenHP import Quaternion
+
 
 G = 9.81
 
@@ -91,78 +94,6 @@ def test_dropIsThatOnABodyWithFixedNodes(what, way):
     gained = (solver.masses[:, None] * solver.velocities).sum(axis=0) - mass * np.array([.3, -1 - G * O.dt * 500])
     assert -forces[:, :2].sum(axis=0) * O.dt == pytest.approx(gained, rel=1e-9, abs=1e-9)
     assert solver.warnings == []
-
-
-@pytest.mark.parametrize('make', ['wall', 'box', 'facet'])
-def test_restingBlockPressesWithItsWeight(make):
-    solver = fe(gravity=(0, -G))
-    block(solver)
-    SURFACES[make]()
-    run(solver)
-    solver.relax(1e-12)
-    O.step()
-    [surface] = [b for b in O.bodies if not isinstance(b.shape, w.SurfaceSegment)]
-    weight = G * solver.masses.sum()
-    assert O.forces.f(surface.id)[1] == pytest.approx(-weight, rel=1e-4)
-    # The moment about the place of the surface's body: the weight acts in the block's middle.
-    arm = solver.nodes[:, 0].mean() - surface.state.pos[0]
-    assert O.forces.t(surface.id)[2] == pytest.approx(-arm * weight, rel=1e-3, abs=1e-6 * weight)
-
-
-@pytest.mark.parametrize('above', [-.05, .05])
-@pytest.mark.parametrize('shape', ['box', 'facet'])
-def test_slidesOnATiltedSurfaceAsFrictionRequires(shape, above):
-    """A block at an angle of friction of 0.4, on slopes around it: it stays, or gains speed at
-    g (sin a - cos a tan phi); 2 % of g sin a for the vibrations of its own start."""
-    phi, slope = .4, .4 + above
-    solver = fe(gravity=(0, -G), damping=300)
-    O.materials['m'].frictionAngle = phi
-    smooth(phi, 'rough')
-    along, across = np.array([math.cos(slope), -math.sin(slope)]), np.array([math.sin(slope), math.cos(slope)])
-    block(solver, (0, 0), angle=-slope)
-    if shape == 'box':
-        O.bodies.append(utils.box((*(-.1 * across), 0), (3, .1, .5), fixed=True, material='rough',
-                                  orientation=Quaternion((0, 0, 1), -slope)))
-    else:
-        O.bodies.append(facet(tuple(-2 * along), tuple(2 * along), fixed=True, material='rough'))
-    run(solver)
-    steps(int(.05 / O.dt))
-    solver.damping = 0
-    start, begin = solver.velocities.mean(axis=0) @ along, solver.time
-    place = solver.nodes.mean(axis=0) @ along
-    steps(int(.1 / O.dt))
-    gained = (solver.velocities.mean(axis=0) @ along - start) / (solver.time - begin)
-    wanted = G * (math.sin(slope) - math.cos(slope) * math.tan(phi)) if above > 0 else 0
-    assert gained == pytest.approx(wanted, abs=.02 * G * math.sin(slope))
-    assert (solver.nodes.mean(axis=0) @ along - place > 1e-3) == (above > 0)
-    assert abs(solver.nodes @ across).min() < 1e-5
-
-
-def pushed(how):
-    """A block that a wall or a box pushes along x: by its velocity, or by its place."""
-    solver = fe()
-    block(solver, (.001, 0))
-    O.bodies.append(wall(0, axis=0) if how != 'box' else utils.box((-.1, .05, 0), (.1, .03, 1), fixed=True))
-    run(solver)
-    body = O.bodies[-1]
-    if how != 'place':
-        body.state.vel = (.5, 0, 0)
-    for _ in range(int(.03 / O.dt)):
-        if how == 'place':
-            body.state.pos = (body.state.pos[0] + .5 * O.dt, 0, 0)
-        O.step()
-    return solver, body
-
-
-@pytest.mark.parametrize('how', ['velocity', 'place', 'box'])
-def test_surfaceThatMovesPushes(how):
-    solver, body = pushed(how)
-    front = body.state.pos[0] + (.1 if how == 'box' else 0)
-    assert .014 < front < .016
-    # Nothing is behind the surface, and energy comes from outside.
-    assert solver.nodes[:, 0].min() > front - 1e-7
-    assert solver.energy['external'] > 0 and solver.energy['kinetic'] > .1
-    assert abs(solver.energy['total']) < 1e-3 * solver.energy['external']
 
 
 def test_surfacesComeAndGo():
@@ -284,28 +215,6 @@ def test_forcesThatAreTakenAwayAreRefused():
         O.step()
 
 
-@pytest.mark.parametrize('what', ['wall', 'two facets'])
-def test_brittleBlockShattersOnIt(what):
-    """No node is behind the surface by more than the 4e-4 of the shortest segment up to which contact
-    takes a point for one before it, and the ledger adds up as on a body with fixed nodes."""
-    solver = w.FESolver()
-    O.materials.append(w.BrittleFEMat(young=1e9, poisson=.2, density=2000, frictionAngle=.3, tensileStrength=1e6,
-                                      strengthScatter=.1, label='brittle'))
-    solver.addPolygon([(0, .0005), (.05, .02), (.05, .1), (-.05, .1), (-.05, .03)], size=.01, material='brittle',
-                      velocity=(0, -15))
-    SURFACES[what]()
-    run(solver, factor=.4)
-    deepest = overlap = 0
-    started = solver.energy['kinetic']
-    for _ in range(120):
-        steps(10)
-        deepest = max(deepest, -solver.nodes[:, 1].min())
-        overlap = max(overlap, solver.deepestOverlap())
-    assert len(solver.fragments()) > 20
-    assert deepest < 4e-4 * .005 and overlap < 4e-4 * .01
-    assert abs(solver.energy['total'] - started) < 1e-3 * started
-
-
 def test_sceneWithoutThemHasNoCost():
     """The same bits and searches with the option on and off."""
     runs = []
@@ -318,3 +227,103 @@ def test_sceneWithoutThemHasNoCost():
         steps(200)
         runs.append((solver.nodes.tobytes(), solver.numSearches, solver.numActives))
     assert runs[0] == runs[1] and runs[0][2] >= 0
+
+
+# --- FESolver in YADE's scenes: saving and loading, other scenes, bodies that come and go
+
+@pytest.mark.parametrize('ending', ['.xml', '.yade'])
+@pytest.mark.parametrize('damage', ['edited', 'cut off'])
+def test_damagedFileIsRefused(ending, damage, folder):
+    """A body that is moved in the file must not overlap others undetected."""
+    solver = impact('LebesgueCollider')
+    steps(20)
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    nodes = solver.nodes
+    with open(path, 'rb') as file:
+        data = file.read()
+    at = data.index(b'<position>') + 100 if ending == '.xml' else data.index(nodes.tobytes()) + 200
+    with open(path, 'wb') as file:
+        file.write(data[:at])
+        if damage == 'edited':
+            digit = next(i for i in range(at, len(data)) if ending != '.xml' or chr(data[i]).isdigit())
+            other = data[digit] ^ 1
+            file.write(data[at:digit] + bytes([other]) + data[digit + 1:])
+    O.reset()
+    with pytest.raises(RuntimeError, match='^The saved state of FESolver is damaged .*; load ano'):
+        O.load(path)
+    with open(path, 'wb') as file:
+        file.write(data)
+    O.load(path)
+    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
+    assert np.array_equal(solver.nodes, nodes)
+    steps(3)
+
+
+def test_eraseIsRefused():
+    solver = impact('LebesgueCollider')
+    count = len(O.bodies)
+    with pytest.raises(ValueError, match='part of the boundary of body 0 of FESolver'):
+        O.bodies.erase(3)
+    assert len(O.bodies) == count and O.bodies[3]
+    ball = O.bodies.append(newBall((5, 5), .1, O.materials['m']))
+    assert O.bodies.erase(ball) and not O.bodies.erase(ball)
+    steps(3)
+    O.bodies.clear()
+    with pytest.raises(RuntimeError, match='The bodies of this FESolver are not in the scene'):
+        O.step()
+    assert solver.numSearches > 0
+
+
+def test_wholeBodyIsRemoved(colliderName):
+    solver = impact(colliderName)
+    third = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m')
+    steps(200)
+    entries = {c: [b.id for b in O.bodies if b.shape.component == c] for c in range(3)}
+    solver.removeBody(1)
+    assert all(O.bodies[k] is None for k in entries[1])
+    assert set(solver.components) == {0, 2} and third == 2
+    assert len(solver.surfaces) == 2
+    kept = [O.bodies[k].shape.entry for k in entries[0] + entries[2]]
+    assert kept == list(range(len(kept)))
+    steps(800)  # the disc goes on and meets the third body
+    assert solver.fragments()[1]['velocity'][0] > .01
+    with pytest.raises(ValueError, match='component is 1, which is no body'):
+        solver.removeBody(1)
+    solver.removeBody(0)
+    solver.removeBody(2)
+    steps(2)
+    assert len(solver.nodes) == 0 and solver.criticalTimeStep() == math.inf
+
+
+@pytest.mark.parametrize('kind', ['elastic', 'smoothed', 'brittle', 'plastic'])
+def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
+    solver = fe()
+    constants = dict(young=1e7, poisson=.3, density=1000, frictionAngle=.3, label='own')
+    O.materials.append(dict(brittle=w.BrittleFEMat(tensileStrength=3e4, fractureEnergy=20, **constants),
+                            plastic=w.PlasticFEMat(yieldStress=2e4, **constants)).get(kind) or w.FEMat(**constants))
+    def add(y, speed):
+        return solver.addPolygon(yadefrag.rectangle((0, y), (.1, y + .05)), size=.0125, material='own',
+                                 velocity=(0, speed), element='smoothed' if kind == 'smoothed' else 'linear')
+    add(0, 5)
+    second = add(.0501, -5)
+    O.bodies.append(newBall((.05, .1107), .01, O.materials['m']))
+    O.bodies[-1].state.vel = (0, -8, 0)
+    ready(solver, .3, spheres=True)
+    while not any(i.isReal for i in O.interactions):
+        O.step()
+    steps(10)
+    def check(change):
+        before = solver.energy
+        change()
+        after = solver.energy
+        for name in ('total', 'scene'):
+            assert after[name] == pytest.approx(before[name], abs=1e-9 * before['kinetic'])
+        assert after['outside'] - before['outside'] == pytest.approx(
+            builtins.sum(before[name] - after[name] for name in ('kinetic', 'strain')), abs=.05 * before['strain'])
+    check(lambda: add(.3, 2))
+    check(lambda: solver.removeBody(second))
+    total = solver.energy['total']
+    steps(60)
+    assert solver.energy['total'] == pytest.approx(total, abs=1e-3 * solver.energy['kinetic'])
+    assert not [one for one in solver.warnings if 'created' in one]

@@ -219,27 +219,6 @@ def test_wallThatRunsAlongItselfIsABelt(way, wayToMove):
     assert solver.warnings == []
 
 
-@pytest.mark.parametrize('way', WAYS)
-def test_whatComesAndGoesElsewhereDisturbsNoContact(way):
-    """Boundaries are made anew, those that stay keep what touches them: the same forces to rounding."""
-    ends = []
-    for disturbed in (False, True):
-        O.reset()
-        solver = fe(gravity=(0, -G), **way)
-        block(solver, (-.05, 0), velocity=(.1, -.2), mesh=.02)
-        block(solver, (-.04, .1))
-        O.bodies.append([facet((-1, 0), (-.01, 0), fixed=True), facet((-.01, 0), (1, 0), fixed=True)])
-        run(solver)
-        for i in range(600):
-            if disturbed and i % 20 == 7:
-                O.bodies.append(facet((-1, -1 - .001 * i), (1, -1), fixed=True))
-            if disturbed and i % 20 == 17:
-                O.bodies.erase(len(O.bodies) - 1)
-            O.step()
-        ends.append(solver.nodes)
-    assert np.abs(ends[0] - ends[1]).max() < 1e-11
-
-
 def test_velocityThatNothingIntegratesIsReported():
     solver = fe()
     block(solver, (.001, 0))

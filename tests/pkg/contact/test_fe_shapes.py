@@ -5,8 +5,6 @@ import numpy as np
 import pytest
 
 from fe_scene import chain, newBall, O, reloaded, rigid, sphereEngines, steps
-from outline_files import offLine
-import yadefrag
 from yade import utils, wrapper as w
 from yade.minieigenHP import Vector3
 
@@ -138,36 +136,6 @@ def heldBall(bodies, mat):
     return ball
 
 
-def test_convexPolygonPushesByItsDistance():
-    """Along a path around the hexagon, past sides and corners: once, by the true distance."""
-    mat = material()
-    ball = heldBall(chain(hexagon(), mat, closed=True), mat)
-    for angle in np.linspace(1e-3, 2 * math.pi, 331):
-        ray = np.array([math.cos(angle), math.sin(angle)])
-        for scale in (1.04, .95, .9):
-            centre = scale * ray
-            away = offLine([centre], hexagon())
-            inside = abs((angle % (math.pi / 3)) - math.pi / 6)
-            inside = scale * math.cos(inside) < math.sqrt(3) / 2
-            wanted = max(RADIUS + away if inside else RADIUS - away, 0)
-            force = np.linalg.norm(forceAt(ball, centre))
-            assert force == pytest.approx(stiffness() * wanted, abs=1e-6 * stiffness())
-
-
-def test_arcsPushByTheirDistance():
-    mat = material()
-    ball = heldBall(smoothChain(hexagon(), mat), mat)
-    curve = arcPoints(hexagon(), 2000)
-    for angle in np.linspace(0, 2 * math.pi, 301):
-        ray = np.array([math.cos(angle), math.sin(angle)])
-        centre = .97 * ray
-        force = forceAt(ball, centre)
-        wanted = max(RADIUS - offLine([centre], curve), 0)
-        assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted, abs=1e-5 * stiffness())
-        if wanted > 0:
-            assert force @ ray > 0
-
-
 @pytest.mark.parametrize('bend', [0, 1e-9, 1e-3, .05, .5, 1.5, -1e-9, -1e-3, -.05, -.5])
 def test_forceIsContinuousOverAJoint(bend):
     """A ball slides past the joint of two sides at angle `bend` (rad; positive: convex)."""
@@ -258,11 +226,3 @@ def test_explicitInteractionEitherWay():
         made = utils.createInteraction(*ids)
         assert (made.id1, made.id2) == (1, 0)
         assert made.geom.penetrationDepth == pytest.approx(.01)
-
-
-def test_classesAreThere():
-    for name in ('FEMat', 'BrittleFEMat', 'SurfaceSegment', 'Bo1_SurfaceSegment_Aabb',
-                 'Ig2_Sphere_SurfaceSegment_ScGeom'):
-        assert name in yadefrag.__all__
-    assert w.BrittleFEMat().dispHierarchy() == ['BrittleFEMat', 'FEMat', 'FrictMat', 'ElastMat', 'Material']
-    assert w.SurfaceSegment().dispHierarchy() == ['SurfaceSegment', 'Shape']

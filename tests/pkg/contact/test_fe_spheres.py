@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import O, wallAndClump
-from fe_scene import fe, finder, kineticEnergy, momentum, newBall, run, solverOfScene, steps, throwBall
+from fe_scene import (fe, finder, kineticEnergy, momentum, newBall, O, run, solverOfScene, steps, throwBall,
+                      wallAndClump)
 from yade import wrapper as w
 
 
@@ -69,36 +69,6 @@ def test_forceOnAPieceGoesToItsNodes():
     angular = (m * (x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0])).sum()
     wanted = sum(p[0] * -2 - p[1] * 3 + .25 for p in arms) * O.dt
     assert angular == pytest.approx(wanted)
-
-
-def rain(name, smooth):
-    """Heights of spheres that fall onto a clamped beam; the same engines whatever the collider."""
-    O.reset()
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((-.2, -.05), (.2, 0)), size=.02, material='m',
-                      smooth=smooth, fixed=lambda x, y: abs(x) > .199)
-    rng = np.random.default_rng(1)
-    for i in range(8):
-        for j in range(2):
-            place = -.17 + .047 * i, .021 + .045 * j + .002 * rng.uniform()
-            throwBall(place, .02, (.2 * rng.normal(), -1))
-    run(solver, finder(name), spheres=True, factor=.3)
-    contacts = 0
-    for _ in range(1500):
-        O.step()
-        contacts = max(contacts, len(list(O.interactions)))
-    assert contacts > 4 and solver.energy['external'] > 0
-    return np.array([b.state.pos[1] for b in O.bodies if isinstance(b.shape, w.Sphere)]), \
-        solver.nodes
-
-
-@pytest.mark.parametrize('smooth', [False, True])
-def test_spheresRainOnABeam(smooth):
-    wanted = rain('InsertionSortCollider', smooth)
-    assert wanted[0].min() > .01
-    found = rain('LebesgueCollider', smooth)
-    assert np.abs(found[0] - wanted[0]).max() < 1e-9
-    assert np.abs(found[1] - wanted[1]).max() < 1e-9
 
 
 def allEnergy(solver, clump):
@@ -306,49 +276,3 @@ def test_forceIsSharedWhereTheBoundaryIsBentInwards():
         assert shear == pytest.approx(wanted, rel=.01)
         assert all(abs(one[2]) <= np.tan(FRICTION) * one[1] for one in found)
     assert both > 500 and len(found) == 1
-
-
-def test_slidingIsNoMoreThanFrictionAtJoints():
-    _, ball = ballOn(yadefrag.rectangle((-.1, -.02), (.1, 0)), (-.005, R - DEEP), (5., 0))
-    O.materials['m'].frictionAngle = .2
-    pieces = set()
-    while ball.state.pos[0] < .05:
-        steps(1)
-        (piece, normal, shear, _), = contacts()
-        assert abs(shear) <= np.tan(.2) * normal * (1 + 1e-12)
-        pieces.add(piece)
-    assert len(pieces) >= 3
-
-
-def test_momentumIsKeptOverJoints():
-    solver, ball = ballOn(yadefrag.rectangle((-.1, -.1), (.1, 0)), (-.0005, R + 1e-5), (3, -.3), 'zXY', None)
-    ball.state.angVel = (0, 0, 30)
-    linear, angular = momentum(solver)
-    pieces = set()
-    for _ in range(3000):
-        steps(1)
-        pieces |= {one[0] for one in contacts()}
-    after, afterAngular = momentum(solver)
-    assert len(pieces) > 1
-    assert np.abs(after - linear).max() < 1e-12 * ball.state.mass
-    assert abs(afterAngular - angular) < 1e-9 * ball.state.mass * .1
-
-
-@pytest.mark.parametrize('ending', ['.yade', '.xml'])
-def test_savedJustBeforeAJoint(folder, ending):
-    """What the next step needs of the last one is saved: the same bits."""
-    def loaded():
-        return next(b for b in O.bodies if isinstance(b.shape, w.Sphere))
-
-    _, ball = ballOn(yadefrag.rectangle((-.1, -.02), (.1, 0)), (-.0001, R - DEEP), (.01, 0))
-    steps(1)
-    first, number = contacts()[0][0], 0
-    while contacts()[0][0] == first:
-        O.save('%s/%d%s' % (folder, number % 2, ending))
-        number += 1
-        steps(1)
-    wanted = contacts(), ball.state.pos
-    O.load('%s/%d%s' % (folder, (number - 1) % 2, ending))
-    assert contacts()[0][0] == first
-    steps(1)
-    assert (contacts(), loaded().state.pos) == wanted

@@ -48,6 +48,8 @@ def test_bodyInEquilibriumStaysAsItIs(kind):
     assert np.abs(solver.nodes - before).max() < 1e-9
     assert np.abs(solver.displacements).max() < 1e-9
     assert solver.warnings == []
+    solver.loads = None
+    assert not solver.loads.any()
 
 
 def test_withoutLoadsItSprings():
@@ -75,14 +77,6 @@ def test_strainEnergyIsHalfStressTimesStrain(planeStress):
     assert solver.energy['strain'] == pytest.approx(density * 2 * .5, rel=1e-6)
     assert solver.energy['total'] == solver.energy['strain']
     assert solver.displacements.max() == 0
-
-
-@pytest.mark.parametrize('stress', [(2e6, -3e6, 1e6), (-2e6, -2e6, 0), (0, 0, 2e6), (1e6, 1e6, 0)])
-def test_largeStressesAreThoseGiven(stress):
-    """Up to a third of Young's modulus: the law of large deformation is inverted exactly."""
-    solver = fe()
-    solver.addPolygon(yadefrag.circle((1, 2), .5, 12), size=.2, material='m', stress=stress)
-    assert solver.stress == pytest.approx(np.tile(stress, (len(solver.stress), 1)), rel=1e-10, abs=1e-3)
 
 
 def test_groundUnderItsWeightIsAtRest():
@@ -116,20 +110,6 @@ def test_cracksDependOnTheStress():
         solver.loads = tractionsOn(solver, (part * 1e6,) * 2 + (0,))
         steps(3)
         assert (solver.numCracks > 0) == cracks
-
-
-def test_noStressIsAsWithoutTheWord():
-    """The same bits, and no array more."""
-    ends = []
-    for more in ({}, {'stress': (0, 0, 0)}):
-        O.reset()
-        solver = fe()
-        solver.addPolygon(yadefrag.circle((0, 0), .1, 16), size=.03, material='m', velocity=(2, .3), **more)
-        solver.addPolygon(yadefrag.rectangle((.105, -.1), (.2, .1)), size=.03, material='m')
-        run(solver)
-        steps(300)
-        ends.append((solver.nodes.tobytes(), solver.velocities.tobytes()))
-    assert ends[0] == ends[1]
 
 
 @pytest.mark.parametrize('element, off', [('linear', .045), ('smoothed', .01)])

@@ -16,52 +16,6 @@ from yade import utils, wrapper as w
 from fe_scene import fe, O, run, steps
 from project import yadeCommand
 
-WEIGHT = 1000 * 9.81  # of a block of 1 m
-
-
-def blockOnFloor():
-    solver = fe(gravity=(0, -9.81))
-    solver.addPolygon(yadefrag.rectangle((-1, -1), (2, 0)), size=.5, material='m', name='floor',
-                      fixed=lambda x, y: True)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.3, material='m', name='block')
-    run(solver)
-    solver.relax(1e-9)
-    return solver
-
-
-def test_weightOnTheFloor():
-    solver = blockOnFloor()
-    assert solver.contactForce('block', 'floor') == pytest.approx((0, WEIGHT), rel=1e-4, abs=1e-4 * WEIGHT)
-    assert solver.contactForce('floor', 1) == pytest.approx((0, -WEIGHT), rel=1e-4, abs=1e-4 * WEIGHT)
-    assert solver.contactForce('block') == pytest.approx(solver.contactForce('block', 'floor'), abs=1e-6)
-    assert solver.contactForce(1, 1) == (0, 0)
-    # The floor bears itself, too: 3 m³.
-    assert solver.reaction('floor') == pytest.approx((0, 4 * WEIGHT), rel=1e-4, abs=1e-4 * WEIGHT)
-    assert solver.reaction(0) == solver.reaction(solver.nodesOf('floor')) == solver.reaction(
-        lambda x, y: y <= 1e-3)
-
-
-@pytest.mark.parametrize('element, part, off', [('smoothed', 1.005, .015), ('linear', .89, .02)])
-def test_reactionIsTheAppliedLoad(element, part, off):
-    """A cantilever, four triangles high, under a load at its tip: force and moment at the clamp, and its deflection, over
-    Timoshenko's."""
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (8, 1)), size=.25, material='m', element=element,
-                      fixed=lambda x, y: x < 1e-9)
-    run(solver)
-    places, tip = solver.nodes, solver.nodes[:, 0] > 8 - 1e-9
-    loads = solver.loads
-    loads[tip, 1] = -1 / tip.sum()
-    solver.loads = loads
-    solver.relax(1e-9)
-    assert solver.reaction(lambda x, y: x < 1e-3) == pytest.approx((0, 1), abs=1e-4)
-    force, arm = solver.reactions, solver.nodes
-    # Load and weight of the arm: 8 m, but for the deflection.
-    assert (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]).sum() == pytest.approx(8, rel=1e-3)
-    theory = 8**3 * 4 * (1 - .3**2) / 1e7 + 1.2 * 8 * 2 * 1.3 / 1e7
-    assert (places - arm)[tip, 1].mean() / theory == pytest.approx(part, abs=off)
-
-
 def test_strainsAndPrincipalStressesOfAStretch():
     solver = fe()
     angle, stretch = .3, .01

@@ -1,14 +1,15 @@
 """FESolver in YADE: its values; what addPolygon takes; loads, prescribed motion, and long runs. The same run with
-any collider: test_same_bits.py."""
-import math
+any collider: test_same_bits.py. engines(fe, spheres=True), and engines that a script lists: a sphere is stopped by every shape
+that has a functor, and a message names those that it goes through; also shapes that appear later."""
 
 import numpy as np
 import pytest
+
 import yadefrag
-from yade import O
+from fe_scene import fe, finder, impact, momentum, O, ready, reloaded, run, steps, throwBall
+from yade import gridpfacet, O, utils, wrapper as w
 from yade.wrapper import *
 from yadefrag import *
-from fe_scene import fe, finder, impact, momentum, run, steps
 
 
 # --- values
@@ -128,58 +129,8 @@ def test_clockwiseOutlineKeepsItsFlags():
     assert kinds[0] == kinds[1] == {(0, 0), (0, .5), (0, 1)}
 
 
-def clampedBlock(top):
-    """A block of 1 m held at its bottom, at rest under `top` (a function of the solver)."""
-    solver = fe(FEMat(young=1e7, poisson=0, density=1000, frictionAngle=0, label='m'), damping=60)
-    solver.addPolygon(rectangle((0, 0), (1, 1)), size=.1, material='m')
-    run(solver, LebesgueCollider([Bo1_SurfaceSegment_Aabb()]), spheres=True, newton=False)
-    solver.prescribe(lambda x, y: y < 1e-9, vy=0)
-    top(solver)
-    return solver
-
-
-def isTop(fe):
-    return fe.nodes[:, 1] > 1 - 1e-9
-
-
-def test_loadsStretchABlock():
-    def pull(fe):
-        loads = fe.loads
-        top = isTop(fe)
-        # Uniform traction: half as much at the two corners.
-        share = np.where(np.isclose(fe.nodes[top][:, 0] % 1, 0), .5, 1)
-        loads[top, 1] = 1e4 * share / share.sum()
-        fe.loads = loads
-
-    fe = clampedBlock(pull)
-    runSteps(6000)
-    # ν = 0: σ = 10⁴ Pa everywhere, but for the change of area (none) and of length (10⁻³ of it).
-    assert np.allclose(fe.stress[:, 1], 1e4, rtol=2e-3)
-    assert np.allclose(fe.displacements[isTop(fe)][:, 1], 1e-3, rtol=2e-3)
-    energy = fe.energy
-    assert abs(energy['total']) < 1e-4 * energy['external']
-    fe.loads = None
-    assert not fe.loads.any()
-
-
-def test_prescribedMotionDoesItsWork():
-    fe = clampedBlock(lambda fe: fe.prescribe(isTop(fe), vx=0, vy=.1))
-    before = fe.nodes[isTop(fe)][0, 1]
-    steps = int(.02 / O.dt)
-    runSteps(steps)
-    moving = np.argmax(fe.nodes[:, 1])
-    assert fe.nodes[moving, 1] == pytest.approx(before + .1 * steps * O.dt, rel=1e-12)
-    energy = fe.energy
-    assert energy['external'] > 0
-    assert abs(energy['total']) < 1e-4 * energy['external']
-    fe.prescribe([int(moving)])
-    speed = fe.velocities[moving, 1]
-    runSteps(5)
-    assert fe.velocities[moving, 1] != speed
-
-
 def test_runCallsInBetween():
-    clampedBlock(lambda fe: None)
+    impact()
     called = []
     assert runSteps(25, every=10, call=lambda: called.append(O.iter)) == 25
     assert called == [10, 20] and O.iter == 25
@@ -195,24 +146,202 @@ def test_minimalAngle():
     assert np.pi / 6 < fe.minAngle <= np.pi / 4 + 1e-12
 
 
-def drift(factor):
-    """(of the work) What the books lose in one turn of a drum with stones of rubber."""
-    O.reset()
-    O.materials.append(FEMat(young=3e5, poisson=.3, density=1000, frictionAngle=.5, label='rubber'))
-    solver = FESolver(gravity=(0, -9.81))
-    solver.addPolygon(*ring((0, 0), .1, .11, 48), size=.02, material='rubber', name='drum')
-    for k in range(8):
-        x, y = .036 * (k % 4 - 1.5), .03 * (k // 4) - .045
-        solver.addPolygon(rectangle((x - .013, y - .013), (x + .013, y + .013)), size=.01, material='rubber')
-    solver.rotate('drum', 6., (0, 0))
-    run(solver, factor=factor)
-    started = solver.energy['total']
-    steps(int(2 * math.pi / 6 / O.dt))
-    return (solver.energy['total'] - started) / solver.energy['external']
+# --- engines(fe, spheres=True), and engines that a script lists
+
+RADIUS = .05
 
 
-def test_energyOfADrumDecreasesBySecondOrderInTheStep():
-    """A quarter of the step, a sixteenth of the loss; stones take other ways, so that a sixth is required, or what
-    the forces' tolerance leaves: 1e-4."""
-    coarse, fine = abs(drift(.8)), abs(drift(.2))
-    assert coarse < 2e-3 and fine < max(coarse / 6, 1e-4)
+def clump():
+    number, _ = O.bodies.appendClumped([utils.sphere((x, -.1, 0), .1, material='m') for x in (-.03, .03)])
+    O.bodies[number].state.blockedDOFs = 'xyzXYZ'
+    return number
+
+
+def connection():
+    O.materials.append(w.CohFrictMat(label='node'))
+    ends = [O.bodies.append(gridpfacet.gridNode((x, -.03, 0), .03, fixed=True, material='node')) for x in (-.3, .3)]
+    return O.bodies.append(gridpfacet.gridConnection(*ends, .03, material='m'))
+
+
+HELD = dict(fixed=True, material='m')
+CORNERS = [(-.3, 0, -.3), (.3, 0, -.3), (0, 0, .4)]
+STOPPING = dict(Wall=lambda: O.bodies.append(utils.wall(0, axis=1, material='m')),
+                Box=lambda: O.bodies.append(utils.box((0, -.1, 0), (.2, .1, .2), **HELD)),
+                Facet=lambda: O.bodies.append(utils.facet(CORNERS, **HELD)),
+                Sphere=lambda: O.bodies.append(utils.sphere((0, -.1, 0), .1, **HELD)), Clump=clump)
+OTHERS = dict(Tetra=lambda: O.bodies.append(utils.tetra(CORNERS + [(0, -.2, 0)], **HELD)), GridConnection=connection)
+IG = {'Wall': 'Ig2_Wall_Sphere_ScGeom', 'Box': 'Ig2_Box_Sphere_ScGeom', 'Facet': 'Ig2_Facet_Sphere_ScGeom',
+      'Sphere': 'Ig2_Sphere_Sphere_ScGeom'}
+CHOICES = {
+    'usual': {}, "YADE's": dict(collider=w.InsertionSortCollider, loop=w.InteractionLoop, integrator=w.NewtonIntegrator),
+    'mixed': dict(collider=w.HierarchyCollider, integrator=w.NewtonIntegrator)}
+
+
+def scene(**choices):
+    """A sphere above y = 0, beside a body of finite elements on which another one falls."""
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((1, -.2), (1.4, 0)), size=.1, material='m', thickness=.1,
+                      fixed=lambda x, y: y < -.199)
+    for x in (0, 1.2):
+        throwBall((x, RADIUS + 1e-4), RADIUS, (0, -1))
+    ready(solver, .2, spheres=True, **choices)
+    return solver
+
+
+def lowest(solver, duration=.02):
+    """The least heights of both spheres above their floors."""
+    least = [1., 1.]
+    while solver.time < duration:
+        O.run(20, True)
+        for i, ball in enumerate(body for body in O.bodies if body.dynamic and body.isStandalone
+                                 and isinstance(body.shape, w.Sphere)):
+            least[i] = min(least[i], ball.state.pos[1])
+    return least
+
+
+@pytest.mark.parametrize('choice', CHOICES)
+@pytest.mark.parametrize('shape', STOPPING)
+@pytest.mark.parametrize('late', [False, True])
+def test_spheresAreStopped(shape, choice, late):
+    solver = scene(**CHOICES[choice])
+    if late:
+        steps(2)
+    STOPPING[shape]()
+    assert min(lowest(solver)) > .5 * RADIUS
+    assert solver.warnings == []
+
+
+@pytest.mark.parametrize('choice', CHOICES)
+@pytest.mark.parametrize('shape', OTHERS)
+def test_otherShapesAreNamed(shape, choice):
+    solver = scene(**CHOICES[choice])
+    steps(2)
+    number = OTHERS[shape]()
+    steps(2)
+    assert any('bodies of the shape %s, such as #%d' % (shape, number) in one for one in solver.warnings)
+
+
+@pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
+@pytest.mark.parametrize('loop', ['InteractionLoop', 'CurveLoop'])
+@pytest.mark.parametrize('shape', IG)
+@pytest.mark.parametrize('lacking', ['geometry', 'bound'])
+def test_missingFunctorsOfListedEnginesAreNamed(lacking, shape, loop, collider):
+    solver = scene(loop=getattr(w, loop), collider=getattr(w, collider))
+    _, finder, contacts, *_ = O.engines
+    name = IG[shape] if lacking == 'geometry' else 'Bo1_%s_Aabb' % shape
+    for one in (contacts.geomDispatcher, finder.boundDispatcher):
+        one.functors = [functor for functor in one.functors if type(functor).__name__ != name]
+    number = STOPPING[shape]() if shape != 'Sphere' else None
+    steps(2)
+    [sentence] = solver.warnings
+    assert sentence.startswith('Spheres go through bodies of the shape %s' % shape) and name in sentence
+    assert 'engines(fe, spheres=True) has it' in sentence and (number is None or '#%d:' % number in sentence)
+
+
+def test_clumpsOfSpheresTouchEverything():
+    """A clump falls on a wall and on a body of finite elements at once."""
+    solver = fe(linearViscosity=.1)
+    solver.addPolygon(yadefrag.rectangle((0, -.2), (.4, 0)), size=.1, material='m', thickness=.1,
+                      fixed=lambda x, y: y < -.199)
+    O.bodies.append(utils.box((-.3, -.1, 0), (.3, .1, .2), fixed=True, material='m'))
+    number, _ = O.bodies.appendClumped([utils.sphere((x, .051, 0), .05, material='m') for x in (-.08, 0, .08)])
+    O.bodies[number].state.blockedDOFs = 'zXY'
+    ready(solver, .2, spheres=True, gravity=(0, -9.81), damping=.3)
+    O.run(int(.1 / O.dt), True)
+    assert O.bodies[number].state.pos[1] == pytest.approx(.05, abs=2e-3) and solver.warnings == []
+
+
+def test_loopWithOtherFunctorsIsUsed():
+    solver = fe()
+    own = w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                      [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+    kinds = [type(one).__name__ for one in yadefrag.engines(solver, spheres=True, loop=own)]
+    assert kinds == ['ForceResetter', 'LebesgueCollider', 'CurveLoop', 'FESolver', 'CurveIntegrator']
+    assert yadefrag.engines(solver, spheres=True, loop=own)[2] is own
+
+
+# --- gravity
+
+def accelerations(solver, ball, count=20):
+    before, speed, begin = solver.velocities.mean(axis=0), np.array(ball.state.vel), solver.time
+    steps(count)
+    duration = solver.time - begin
+    return (solver.velocities.mean(axis=0) - before) / duration, ((np.array(ball.state.vel) - speed) / duration)[:2]
+
+
+@pytest.mark.parametrize('integrator', [w.CurveIntegrator, w.NewtonIntegrator])
+@pytest.mark.parametrize('how', ['gravity=', 'fe.gravity', 'none', 'listed'])
+@pytest.mark.parametrize('isSaved', [False, True])
+def test_changedGravityReachesAllBodies(how, integrator, isSaved, folder):
+    solver = fe(**(dict(gravity=(0, -9.81)) if how == 'fe.gravity' else {}))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m', thickness=.1)
+    ball = throwBall((.5, .3), .05)
+    O.engines = yadefrag.engines(solver, spheres=True, integrator=integrator,
+                                 **(dict(gravity=(0, -9.81)) if how == 'gravity=' else {}))
+    if how == 'listed':
+        O.engines = O.engines[:-1] + [integrator(damping=0, gravity=(0, -9.81, 0))]
+    O.dt = .5 * solver.criticalTimeStep()
+    first = (0, 0) if how == 'none' else (0, -9.81)
+    for found in accelerations(solver, ball):
+        assert tuple(found) == pytest.approx(first, abs=1e-6)
+    if isSaved:
+        solver = reloaded(folder + '/scene.yade')
+        ball = next(body for body in O.bodies if isinstance(body.shape, w.Sphere))
+    O.engines[-1].gravity = (3, 4, 0)
+    for found in accelerations(solver, ball):
+        assert tuple(found) == pytest.approx((3, 4), abs=1e-6)
+    assert tuple(solver.gravity) == (3, 4, 0) and solver.warnings == []
+    solver.gravity = (0, -1)
+    own, theirs = accelerations(solver, ball)
+    assert tuple(own) == pytest.approx((0, -1), abs=1e-6) and tuple(theirs) == pytest.approx((3, 4), abs=1e-6)
+    [sentence] = solver.warnings
+    assert sentence.startswith("The gravity of FE bodies is (0, -1) m/s², that of YADE's bodies, such as #%d, (3, 4)"
+                               % ball.id)
+    solver.takesGravity = True
+    for found in accelerations(solver, ball):
+        assert tuple(found) == pytest.approx((3, 4), abs=1e-6)
+
+
+def test_gravityStaysWithoutIntegrator():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m')
+    ready(solver, .5, moving=True, gravity=(0, -2))
+    steps(5)
+    O.engines = yadefrag.engines(solver)
+    before, begin = solver.velocities[:, 1].mean(), solver.time
+    steps(5)
+    assert (solver.velocities[:, 1].mean() - before) / (solver.time - begin) == pytest.approx(-2, rel=1e-6)
+
+
+def test_gravityOfOtherEnginesIsReported():
+    solver = scene()
+    O.engines = O.engines[:1] + [w.GravityEngine(gravity=(0, -1, 0))] + O.engines[1:]
+    steps(2)
+    assert solver.warnings == ['GravityEngine does not act on FE bodies; the gravity of NewtonIntegrator does.']
+
+
+# --- time step, rest
+
+def test_timeStepperOfYadeIsNamed():
+    solver = scene()
+    O.engines = O.engines[:3] + [w.GlobalStiffnessTimeStepper(timestepSafetyCoefficient=.8)] + O.engines[3:]
+    with pytest.raises(RuntimeError, match=r'O\.dt: .*GlobalStiffnessTimeStepper sets O\.dt without FE bodies; give '
+                                           r'it maxDt = \.8 \* fe\.criticalTimeStep\(\)'):
+        O.run(400, True)
+    O.engines[3].maxDt = .8 * solver.criticalTimeStep()
+    O.run(400, True)
+
+
+@pytest.mark.parametrize('place', [(.2, .08), (.2, .0499)])
+def test_relaxWaitsForSpheres(place):
+    """A sphere falls from 30 mm; the other one begins at rest with its contact, nearly without force."""
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, -.1), (.4, 0)), size=.1, material='m', thickness=.1,
+                      fixed=lambda x, y: y < -.0999)
+    ball = throwBall(place, .05)
+    ready(solver, .5, spheres=True, gravity=(0, -9.81))
+    solver.relax()
+    assert abs(ball.state.pos[1] - .05) < 2e-3 and ball.state.vel.norm() < 1e-3
+    weight = ball.state.mass * 9.81
+    assert O.forces.f(ball.id)[1] == pytest.approx(weight, rel=.02)
+    assert O.engines[-1].damping == 0 and solver.damping == 0

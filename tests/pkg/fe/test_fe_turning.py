@@ -1,5 +1,4 @@
 """Motions that change: turns that keep their circle, values by node, tables and functions of time."""
-import builtins
 import math
 import os
 
@@ -69,10 +68,8 @@ def test_drumKeepsItsRadiusOverTenTurns(how):
     assert abs(solver.nodes - turned(start, CENTRE, omega * solver.time)).max() < 1e-9
     # Stress-free, and no energy comes of it: what a rigid body has, to the order of (ωΔt)².
     kinetic = .5 * (solver.masses * before**2).sum() * omega**2
-    energy = solver.energy
-    assert energy['kinetic'] == pytest.approx(kinetic, rel=(omega * O.dt)**2)
-    assert energy['strain'] < 1e-9 * kinetic
-    assert abs(energy['total'] - (0 if how in ('rotate', 'name', 'nodes') else kinetic)) < 1e-3 * kinetic
+    assert solver.energy['strain'] < 1e-9 * kinetic
+    assert abs(solver.energy['total'] - (0 if how in ('rotate', 'name', 'nodes') else kinetic)) < 1e-3 * kinetic
 
 
 def test_heldNodesOfABodyThatIsThrownTurnAboutItsCentroid():
@@ -85,17 +82,6 @@ def test_heldNodesOfABodyThatIsThrownTurnAboutItsCentroid():
     assert abs(solver.nodes - turned(start, middle, 30 * solver.time) - (centre - CENTRE)).max() < \
         2 * abs(middle - CENTRE).max() + 1e-9
     assert abs(radii(solver, centre) / before - 1).max() < 1e-6
-
-
-def test_doubledNodesOfOpenJointsTurn():
-    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e9, label='b'))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='b', fixed=everywhere,
-                      velocity=lambda x, y: (-20 * y, 20 * x), joints=[((0, .5), (1, .5))])
-    run(solver)
-    before = np.linalg.norm(solver.nodes, axis=1)
-    assert len(np.unique(solver.nodes, axis=0)) < len(solver.nodes)
-    steps(100)
-    assert np.linalg.norm(solver.nodes, axis=1) == pytest.approx(before, abs=1e-12)
 
 
 def test_oneHeldNodeTurnsAboutTheCentroid():
@@ -214,16 +200,6 @@ def test_functionsThatFailStopTheStepUnharmed(value, sentence):
     O.step()
 
 
-def test_aRefusedStepPutsDrivenNodesBack():
-    solver = block()
-    solver.prescribe(bottom(solver), vx=[(0, 1e9), (1, 1e9)], vy=0)
-    before, speed = solver.nodes, solver.velocities
-    for _ in range(2):
-        with pytest.raises(RuntimeError):
-            O.step()
-        assert (solver.nodes == before).all() and (solver.velocities == speed).all()
-
-
 def test_namesAreTakenOnce():
     solver = fe()
     place = [yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)) for k in range(2)]
@@ -286,16 +262,6 @@ def test_bodiesChangeBetweenStepsOnly(change, kind):
     assert len(calls) == 3 and abs(solver.velocities).max() < 1e-12  # rounding
     steps(5)  # the function returns now
     assert O.iter == 7
-
-
-@pytest.mark.parametrize('change', [name for name in kChanges if name != 'removeOwn'])
-def test_aPyRunnerMayDoIt(change):
-    solver, calls = scene(), []
-    solver.prescribe([0], vx=lambda x, y, t: calls.append(t) or 0.)
-    builtins.change = lambda: kChanges[change](solver)
-    O.engines = [w.PyRunner(command='__import__("builtins").change()', iterPeriod=3, nDo=1), *O.engines]
-    O.run(10, True)
-    assert O.iter == 10 and len(calls) == 10
 
 
 def test_readingAndSpheresAreAllowed():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import brittle, O, STEEL
+from fe_scene import brittle, O, STEEL
 from outline_files import contour, offLine
 from yadefrag import Mesh, polygonMesh, rectangle, rectangleMesh, ring
 from yade import wrapper as w

@@ -7,8 +7,7 @@ import pytest
 
 import outline_files as touching
 import yadefrag
-from fe_impact import brittle, engines, O
-from fe_scene import heard
+from fe_scene import brittle, engines, heard, O
 from outline_files import area
 from yade import wrapper as w
 
@@ -121,7 +120,8 @@ def test_theRefusalStatesTheOverlapAndARemedyThatHelps():
     solver = solverOf()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='m')
     beside = yadefrag.rectangle((.98, .1), (2, .8))
-    with pytest.raises(ValueError, match=r'by 0\.02 m; .* snap=0\.044 moves') as error:
+    with pytest.raises(ValueError, match=r'^The new body overlaps body 0 at \(.*\) m by 0\.02 m; it may touch others at the '
+                       r'start, but not overlap them.* snap=0\.044 moves') as error:
         solver.addPolygon(beside, size=.1, material='m')
     snap = float(re.search(r'snap=(\S+) ', str(error.value))[1])
     with pytest.warns(UserWarning, match='vertices were moved'):

@@ -1,27 +1,22 @@
-"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has.
-Threads: test_lifecycle.py."""
-import os
-
+"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has. Each law:
+test_laws.py; threads: test_lifecycle.py."""
 import numpy as np
 import pytest
 import yade.config
 import yade.wrapper as w
 import yadefrag
 from yade import utils
-from yade.minieigenHP import Matrix3
 
 import scenes
-from law_twins import denseHeap, lonelyHeap
-from scenes import O, heap, packing, state
+from scenes import O, heap, state
+from test_laws import cohesive, denseHeap, friction, functors, geometries
 
 NAMES = 'InteractionLoop', 'CurveLoop'
 
 
 def frictional(law=None, **sphere):
     """Functors with attributes of the law and of the geometry of two spheres."""
-    return ([w.Ig2_Sphere_Sphere_ScGeom(**sphere), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-             w.Ig2_Wall_Sphere_ScGeom()],
-            [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack(**(law or {}))])
+    return functors(friction, ({}, {}, law or {}, sphere))
 
 
 kFunctors = dict(
@@ -29,29 +24,20 @@ kFunctors = dict(
     arms=lambda: frictional(dict(sphericalBodies=False), avoidGranularRatcheting=False),
     distant=lambda: frictional(dict(neverErase=True), interactionDetectionFactor=1.2),
     traced=lambda: frictional(dict(traceEnergy=True)),
-    rotations=lambda: ([w.Ig2_Sphere_Sphere_ScGeom6D(), w.Ig2_Facet_Sphere_ScGeom6D(), w.Ig2_Box_Sphere_ScGeom6D()],
-                       [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
-kCohesive = ([w.Ig2_Sphere_Sphere_ScGeom6D, w.Ig2_Facet_Sphere_ScGeom6D, w.Ig2_Box_Sphere_ScGeom6D],
-             [w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys], [w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment])
+    rotations=lambda: (geometries('6D'), [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
 
 
-def loopOf(name, functors):
-    return getattr(w, name)(*functors)
-
-
-def run(name, functors, steps, build=heap, collider='LebesgueCollider', newton=None, **settings):
+def run(name, functors, steps, build=heap, collider='LebesgueCollider', **settings):
     build(**settings)
-    loop = loopOf(name, functors)
-    O.engines = [w.ForceResetter(), scenes.makeCollider(collider), loop,
-                 newton or w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+    O.engines = [w.ForceResetter(), scenes.makeCollider(collider), getattr(w, name)(*functors),
+                 w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
     O.run(steps, True)
-    return loop, state()
+    return O.engines[2], state()
 
 
 def requireSame(make, steps=700, **settings):
-    """The loop's own counts of the last step, after comparing all bits."""
-    _, expected = run('InteractionLoop', make(), steps, **settings)
-    loop, found = run('CurveLoop', make(), steps, **settings)
+    """The loop, after comparing all bits."""
+    (_, expected), (loop, found) = [run(name, make(), steps, **settings) for name in NAMES]
     assert O.interactions.countReal() > 40
     assert found == expected
     return loop
@@ -69,34 +55,15 @@ def test_bits(kind, collider, build):
     assert (loop.fastGeometries == 0) if kind == 'rotations' else 0 <= real - loop.fastGeometries < 8
 
 
-def test_fewContactsPerBody():
-    """With many bodies that touch nothing the loop reads bodies in place: the same bits."""
-    loop = requireSame(kFunctors['friction'], build=lonelyHeap)
-    assert len(O.interactions) < len(O.bodies) and loop.fastForces == O.interactions.countReal()
-
-
 def test_otherLaws():
-    cohesive = requireSame(
-        lambda: [[make() for make in makers] for makers in kCohesive],
-        material=w.CohFrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4, isCohesive=True,
-                               normalCohesion=1e5, shearCohesion=1e5, momentRotationLaw=True))
+    """A law of some versions of YADE only, and one that the loop does not know."""
+    loop = requireSame(lambda: functors(cohesive, cohesive.options['turning']), material=cohesive.material(momentRotationLaw=True))
     isKnown = yade.config.version < '2025'
-    assert cohesive.fastForces == (O.interactions.countReal() if isKnown else 0)
-    assert isKnown or 'since the loop knows this law of YADE before 2025.2 only' in cohesive.report()
-    linear = requireSame(lambda: [frictional()[0], [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
+    assert loop.fastForces == (O.interactions.countReal() if isKnown else 0)
+    assert isKnown or 'since the loop knows this law of YADE before 2025.2 only' in loop.report()
+    linear = requireSame(lambda: [geometries(), [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
                                   [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]])
     assert linear.fastForces == 0 and linear.fastGeometries > 20
-
-
-@pytest.mark.parametrize('homoDeform', [0, 2])
-def test_periodicCell(homoDeform):
-    def sheared(**settings):
-        heap(periodic=True)
-        O.cell.homoDeform = homoDeform
-        O.cell.velGrad = Matrix3(-.3, .2, 0, 0, -.2, 0, 0, 0, -.3)
-    loop = requireSame(kFunctors['friction'], build=sheared)
-    # YADE's functor computes the first geometry of a contact.
-    assert loop.fastForces == O.interactions.countReal() >= loop.fastGeometries > 40
 
 
 def mixed():
@@ -115,7 +82,7 @@ def test_forcesOfOthers(laws, build):
         viscous = w.ViscElMat(kn=1e6, ks=5e5, cn=100, cs=50, density=2000, frictionAngle=.4)
         for body in list(O.bodies)[:144 if laws == 'viscous' else 50 if laws == 'mixed' else 0]:
             body.material = viscous
-        loop = loopOf(name, kFunctors[laws]() if laws in kFunctors else mixed())
+        loop = getattr(w, name)(*(kFunctors[laws]() if laws in kFunctors else mixed()))
         ids = [b.id for b in O.bodies if b.dynamic][::3]
         O.engines = [w.ForceResetter(), w.ForceEngine(ids=ids, force=(5, .1, 1 / 3)),
                      w.TorqueEngine(ids=[0, 60], moment=(.1, .7, 0)), scenes.makeCollider('LebesgueCollider'),
@@ -149,69 +116,6 @@ def test_energies():
         loop, _ = run(name, kFunctors['traced'](), 300)
         losses.append(loop.lawDispatcher.functors[0].plasticDissipation())
     assert losses[0] == losses[1] > 0
-
-
-def fresh(former):
-    """Another state at the same place, at rest."""
-    state = w.State(mass=1000, inertia=(200, 200, 200))
-    state.pos = former.pos
-    return state
-
-
-def test_changesFromPython():
-    """Bodies erased, inserted, moved and resized, contacts made, changed and reset between steps."""
-    def changed(step):
-        if step == 100:
-            for number in (3, 17, 60):
-                O.bodies.erase(number)
-        elif step == 150:
-            O.bodies.append(utils.sphere((3, 3, 8), .7))
-            O.bodies[20].state.vel = (0, 0, -9)
-        elif step == 200:
-            for contact in O.interactions:
-                contact.phys.kn *= 1.5
-                contact.phys.tangensOfFrictionAngle = .1
-            O.bodies[30].shape.radius *= .9
-        elif step == 250:
-            list(O.interactions)[5].geom, list(O.interactions)[7].phys = None, None
-        elif step == 300:
-            far = [b.id for b in O.bodies if isinstance(b.shape, w.Sphere)][:2]
-            if not O.interactions.has(*far) or not O.interactions[far[0], far[1]].isReal:
-                utils.createInteraction(*far)
-        elif step == 320:
-            O.interactions.clear()
-        elif step == 350:
-            O.bodies[40].shape = w.Sphere(radius=.4)
-            O.bodies[41].state = fresh(O.bodies[41].state)
-
-    found = []
-    for name in NAMES:
-        run(name, kFunctors['friction'](), 50)
-        states = []
-        for step in range(50, 450, 10):
-            changed(step)
-            O.run(10, True)
-            states.append(state())
-        found.append(states)
-    assert found[0] == found[1]
-
-
-def test_savedAndLoaded(folder):
-    """Saved in the middle: goes on with the same bits, in both formats, with its functors."""
-    _, expected = run('CurveLoop', kFunctors['arms'](), 600)
-    for ending in ('xml', 'yade.gz'):
-        run('CurveLoop', kFunctors['arms'](), 300)
-        path = os.path.join(folder, 'scene.' + ending)
-        O.save(path)
-        O.reset()
-        O.load(path)
-        assert type(O.engines[2]) is w.CurveLoop
-        law, = O.engines[2].lawDispatcher.functors
-        assert not law.sphericalBodies
-        O.run(300, True)
-        numbers, reference = (np.frombuffer(s[0]) for s in (state(), expected))
-        # YADE saves no shear increments, and numbers in XML with 17 digits.
-        assert np.abs(numbers - reference).max() < 1e-6
 
 
 @pytest.mark.parametrize('isSorted', [False, True])
@@ -281,7 +185,7 @@ def test_spheresOnABeam():
         O.engines = yadefrag.engines(solver, spheres=True)
         former = next(e for e in O.engines if isinstance(e, w.InteractionLoop))
         parts = [former.geomDispatcher.functors, former.physDispatcher.functors, former.lawDispatcher.functors]
-        loop = loopOf(name, parts)
+        loop = getattr(w, name)(*parts)
         O.engines = [loop if e == former else e for e in O.engines]
         O.dt = .3 * solver.criticalTimeStep()
         most = 0
@@ -293,30 +197,3 @@ def test_spheresOnABeam():
                       np.array([[*b.state.pos, *b.state.vel, *b.state.angVel] for b in O.bodies]).tobytes()])
     assert found[0] == found[1]
     assert found[0][0] > 5
-
-
-def test_movedTogether(folder):
-    """From 2,048 contacts on, geometries and physics are moved together: the same bits, with objects that Python
-    holds, contacts and bodies that end, a reset and a saved scene in between."""
-    found = []
-    for name in NAMES:
-        run(name, kFunctors['friction'](), 20, build=lambda: packing((12, 12, 12), .97, 1e-4, seed=5))
-        held = [(i.geom, i.phys) for i in list(O.interactions)[:50]]
-        assert O.interactions.countReal() > 2048
-        states = []
-        for step in range(4):
-            O.run(45, True)
-            states.append(state())
-            O.bodies.erase(7 + step)
-            first = next(iter(O.interactions))
-            O.interactions.erase(first.id1, first.id2)
-            # Objects of contacts that went on are the same as before.
-        assert sum(1 for i in O.interactions for g, p in held[:5] if i.geom == g and i.phys == p) > 2
-        former = [(g.penetrationDepth, p.kn) for g, p in held]
-        O.save(os.path.join(folder, name + '.yade.gz'))
-        O.reset()
-        # They end with their last owner.
-        assert [(g.penetrationDepth, p.kn) for g, p in held] == former
-        del held
-        found.append(states)
-    assert found[0] == found[1]

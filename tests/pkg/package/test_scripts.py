@@ -261,20 +261,16 @@ def test_positionsAreThoseAndPartsNoMoreThanTheStep(rows, tmp_path):
 
 def test_otherMotionIsAnError(monkeypatch):
     """A code that leaves its spheres where they were is found."""
-    class Still:
-        exists = staticmethod(lambda: True)
-        measure = staticmethod(lambda folder, warm, steps, threads, limit: {})
-
-    monkeypatch.setitem(codes.OTHERS, 'LAMMPS', Still)
-    monkeypatch.setattr(codes.codes_lammps, 'ended', lambda folder: codes.codes_lammps.start(folder)[0]['places'])
+    monkeypatch.setitem(codes.OTHERS, 'LAMMPS', lambda folder, warm, steps, threads, limit: {})
+    monkeypatch.setattr(codes.shutil, 'which', lambda program: program)
+    monkeypatch.setattr(codes.codes_others, 'ended', lambda folder: codes.codes_others.start(folder)[0]['places'])
     options = codes.parse('--scenes gas --sizes 500 --codes loop,LAMMPS --warm 5 --steps 5'.split())
     with pytest.raises(RuntimeError, match='positions of LAMMPS differ by 1 of'):
         codes.measured(options, lambda text: None)
 
 
 def test_missingCodesAreNamed(monkeypatch, capsys):
-    for module in codes.OTHERS.values():
-        monkeypatch.setattr(module, 'exists', lambda: False)
+    monkeypatch.setattr(codes.shutil, 'which', lambda program: None)
     assert codes.installed(['YADE', 'LIGGGHTS', 'LAMMPS']) == ['YADE']
     assert capsys.readouterr().err.strip() == (
         'not compared with LIGGGHTS and LAMMPS: not installed (sudo apt-get install liggghts lammps).')

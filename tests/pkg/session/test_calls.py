@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import impact as brittleImpact
-from fe_scene import heard, impact, O, steps
+from fe_scene import brittleImpact, heard, impact, O, steps
 from project import inYade
 from yade import utils, wrapper as w
 from yadefrag import arguments

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import areSame, brittle, impact, O, state, steps
-from fe_scene import solverOfScene
+from fe_scene import areSame, brittle, brittleImpact, O, solverOfScene, state, steps
 from project import inYade
 from yade import wrapper as w
 from yadefrag import _yadefrag
@@ -18,7 +17,7 @@ from yadefrag.fe.contents import betweenSteps
 
 def cracking():
     """A block that begins to crack, for some 300 steps from now on."""
-    solver = impact()
+    solver = brittleImpact()
     steps(120)
     return solver
 
@@ -171,7 +170,7 @@ def test_aPyRunnerMayChangeWhatRuns():
 
 @pytest.mark.parametrize('at', [1, 4, 7])
 def test_pauseEndsTheRun(at, folder):
-    impact()
+    brittleImpact()
     O.engines = O.engines + [w.PyRunner(command='O.pause()', iterPeriod=at, initRun=False)]
     O.step()  # from which the PyRunner counts
     for _ in range(3):
@@ -184,7 +183,7 @@ def test_pauseEndsTheRun(at, folder):
 
 @pytest.mark.parametrize('at', [1, 4, 7])
 def test_resetTimeIsNoEnd(at):
-    impact()
+    brittleImpact()
     O.engines = O.engines + [w.PyRunner(command='O.resetTime()', iterPeriod=at, initRun=False)]
     O.step()
     assert yadefrag.runSteps(20) == 20
@@ -193,7 +192,7 @@ def test_resetTimeIsNoEnd(at):
 
 
 def test_pauseEndsTheFilm(folder):
-    solver = impact()
+    solver = brittleImpact()
     O.engines = O.engines + [w.PyRunner(command='O.pause()', iterPeriod=4, initRun=False)]
     path = os.path.join(folder, 'a.gif')
     assert yadefrag.animate(solver, path, 20, 2) == 4  # at steps 0, 2, 4, 5
@@ -201,7 +200,7 @@ def test_pauseEndsTheFilm(folder):
 
 
 def test_failureEndsTheRun():
-    impact()
+    brittleImpact()
     O.engines = O.engines + [w.PyRunner(command='1 / 0', iterPeriod=4, initRun=False)]
     with pytest.raises(RuntimeError):
         yadefrag.runSteps(20)

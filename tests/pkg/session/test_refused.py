@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, impact, O, reloaded, run, steps
+from fe_scene import fe, impact, O, steps
 from yade import wrapper as w
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -123,30 +123,6 @@ def test_errorsWithinAFunctionAreThoseOfTheScript():
 
 
 # --- a scene in which a body cannot be
-
-def test_bodiesThatOverlapAreNotAdded(folder):
-    """Where a body is now counts, also after O.load."""
-    made = fe()
-    first = added(made)
-    bodies, nodes = len(O.bodies), made.nodes
-    for low, high in (((0, 0), (1, 1)), ((.9, .2), (2, .8)), ((.4, .4), (.6, .6))):
-        with pytest.raises(ValueError, match=r'^The new body overlaps body %d at \(.*\) m by \S+ m; '
-                           'it may touch others at the start, but not overlap them.' % first):
-            made.addPolygon(yadefrag.rectangle(low, high), size=.5, material='m')
-    for call in (lambda: added(made, (2, 0), displacement=lambda x, y: (-1.1, 0)),
-                 lambda: made.addTriangles([(.5, .5), (3, .5), (3, 2)], [(0, 1, 2)], material='m')):
-        with pytest.raises(ValueError, match='overlaps body 0'):
-            call()
-    assert len(O.bodies) == bodies and np.array_equal(made.nodes, nodes)
-    assert added(made, (1, 0)) == first + 1
-    run(made)
-    steps(5)
-    made = reloaded(folder + '/scene.xml')
-    with pytest.raises(ValueError, match='overlaps body 0 at'):
-        made.addPolygon(yadefrag.circle((.5, .5), .1, 8), size=.1, material='m')
-    added(made, (3, 0))
-    steps(2)
-
 
 def test_scenes():
     O.periodic = True

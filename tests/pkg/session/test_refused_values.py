@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import FAILS, O, STEEL
-from fe_scene import fe, finder, heard, run, steps
+from fe_scene import FAILS, fe, finder, heard, O, run, STEEL, steps
 from test_refused import added, sentenceOf
 from yade import wrapper as w
 
@@ -22,15 +21,18 @@ CONCRETE = dict(young=30e9, poisson=.2, density=2400, cohesion=5e6, internalFric
                 tensionLimit=1.2e6)
 MATERIALS = {
     'brittle': (w.BrittleFEMat, dict(young=30e9, poisson=.2, density=2500, tensileStrength=20e6), [
-        (dict(tensileStrength=0), 'tensileStrength is 0 Pa; it must be positive'),
+        (dict(tensileStrength=0), 'tensileStrength is 0 Pa; it must be positive and finite for a material that cracks.'),
         (dict(tensileStrength=-1), 'tensileStrength is -1 Pa'),
         (dict(tensileStrength=NAN), 'tensileStrength is nan'),
-        (dict(fractureEnergy=-5), 'fractureEnergy is -5 J/m²; it must be'),
-        (dict(shearFactor=0), 'shearFactor is 0; it must be'),
-        (dict(shearEnergyFactor=0), 'shearEnergyFactor is 0; it must be'),
-        (dict(weibullModulus=-2), 'weibullModulus is -2; it must be'),
-        (dict(referenceVolume=-1), 'referenceVolume is -1 m³; it must be'),
-        (dict(strengthScatter=1), 'strengthScatter is 1; it must be'),
+        (dict(fractureEnergy=-5), 'fractureEnergy is -5 J/m²; it must be positive and finite, or 0 for cracks that open at '
+                                  'once.'),
+        (dict(shearFactor=0), 'shearFactor is 0; it must be positive and finite.'),
+        (dict(shearEnergyFactor=0), 'shearEnergyFactor is 0; it must be positive and finite.'),
+        (dict(weibullModulus=-2), 'weibullModulus is -2; it must be positive and finite, or 0 for strengths without this '
+                                  'scatter.'),
+        (dict(referenceVolume=-1), 'referenceVolume is -1 m³; it must be positive and finite, or 0 for strengths on which '
+                                   'the volume has no influence.'),
+        (dict(strengthScatter=1), 'strengthScatter is 1; it must be at least 0 and below 1.'),
         (dict(coarseMesh='fine'), "coarseMesh is 'fine'; it must be 'warn', 'strength' or 'energy'"),
         *[(dict(rateEnergyPower=power), 'rateEnergyPower is .*; it must be from 0, for an energy')
           for power in (-1, 11, NAN, INF)]]),
@@ -42,6 +44,7 @@ MATERIALS = {
         (dict(rateFactor=NAN), 'rateFactor is nan; it must be 0 or positive, and finite.'),
         (dict(heatShare=1.5), 'heatShare is 1.5; it must be from 0 to 1.'),
         (dict(fractureEnergy=1e4), 'fractureEnergy is 10000 J/m²; it must be 0 unless failureStrain'),
+        (dict(failureD4=.01), 'failureD4 is 0.01; '),
         (dict(failureStrain=.3, weibullModulus=-1), 'weibullModulus is -1; it must be positive and finite, or 0'),
         (dict(failureStrain=.3, strengthScatter=1), 'strengthScatter is 1; it must be at least 0 and below 1.'),
         (dict(weibullModulus=5), 'weibullModulus is 5; it must be 0 unless failureStrain, failureD1, failureD2 or '
@@ -53,6 +56,7 @@ MATERIALS = {
                               "is 1.5 times von Mises' stress; it must be positive there, or failureStrain given as the "
                               'least one.'),
         (dict(failureD3=2.12), 'failureD3 is 2.12; it must be 0 or negative, since tension reduces the failure strain.'),
+        (dict(failureD1=NAN), 'failureD1 is nan; '), (dict(failureD2=-1), 'failureD2 is -1; '),
         (dict(failureD4=-.1), 'failureD4 is -0.1; it must be at least -0.04, for a positive failure strain at any rate.'),
         (dict(failureD5=-2), 'failureD5 is -2; it must be above -1, for a positive failure strain up to melting.'),
         (dict(thermalExponent=0, meltTemperature=0), 'failureD5 is 0.61; it must be 0, or meltTemperature above'),
@@ -112,14 +116,15 @@ CURVES = [
         ('', "^rateEffect is ''; it must be one of"), ([], '^rateEffect has no points; it must have at least two'),
         ([(1, 1)], '^rateEffect has one point; it must have at least two'),
         ([(1, 1), (.5, 2)], '^rateEffect has the strain rate 0.5 1/s after 1 1/s; rates must increase'),
-        ([(1, 1), (2, .5)], '^rateEffect has the factor 0.5; factors must be from 1'),
+        ([(1, 1), (2, .5)], '^rateEffect has the factor 0.5; factors must be from 1, the strength of a slow test, to 1000'),
         ([(-1, 1), (2, 2)], '^rateEffect has the strain rate -1 1/s; rates must be positive'),
         ([(1, 1), (NAN, 2)], 'rates must be positive and finite'), ([(1, 1), (2, NAN)], '^rateEffect has the factor nan')]),
     ('rateEffect', w.BrittleFEMat, TypeError, [
         (3, 'rateEffect is 3, %s .strain rate in 1/s, factor' % NAME_OR_POINTS),
         (None, '^BrittleFEMat.rateEffect is None, it must be a name'),
         *[(points, NAME_OR_POINTS) for points in ([1, 2], [(1, 1, 1), (2, 2, 2)])]]),
-    ('hardeningTable', w.PlasticFEMat, ValueError, [([(0, 2e8), (.1, 1e8)], 'stresses must not decrease')]),
+    ('hardeningTable', w.PlasticFEMat, ValueError, [
+        ([(0, 2e8), (.1, 1e8)], r'^hardeningTable has the stress 1e\+08 Pa after 2e\+08 Pa; stresses must not decrease')]),
     ('hardeningTable', w.PlasticFEMat, TypeError, [(7, 'hardeningTable is')])]
 
 

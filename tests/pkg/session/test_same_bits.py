@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-import fe_impact
 import yadefrag
-from fe_scene import blow, fe, finder, impact, O, run, solverOfScene, throwBall
+from fe_scene import (blow, brittleImpact, engines, FAILS, fe, finder, impact, O, plate, run, solverOfScene,
+                      throwBall, wallAndClump)
 from yade import utils
 from yade import wrapper as w
 
@@ -39,7 +39,7 @@ def differences(a, b):
 
 
 def brittle(**values):
-    return lambda: fe_impact.impact(**dict(dict(strengthScatter=.1, seed=3), **values))
+    return lambda: brittleImpact(**dict(dict(strengthScatter=.1, seed=3), **values))
 
 
 def elastic(smooth, **settings):
@@ -53,7 +53,7 @@ def varying():
 
 
 def dropped():
-    fe_impact.impact(weibullModulus=10, seed=3).minFragmentArea = 3e-6
+    brittleImpact(weibullModulus=10, seed=3).minFragmentArea = 3e-6
 
 
 def discAndBall():
@@ -71,7 +71,7 @@ def bonded():
         solver.addPolygon(yadefrag.rectangle((low, 0), (low + .05, .02)), size=size, material='m',
                           velocity=lambda x, y: (8 * (x / .05 - 1), 0))
     solver.bond(0, 1, 5e6, 100)
-    fe_impact.engines(solver, factor=.4)
+    engines(solver, factor=.4)
 
 
 def stressed():
@@ -130,10 +130,10 @@ kScenes = {
     'bonded': (bonded, 40, lambda fe: fe.energy['fracture'] > 0),
     'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
     'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
-    'plastic': (fe_impact.plate, 100, lambda fe: fe.plasticStrain.max() > .01),
-    'failure': (lambda: fe_impact.plate(weibullModulus=8, **fe_impact.FAILS), 100, lambda fe: fe.numCracks > 0),
+    'plastic': (plate, 100, lambda fe: fe.plasticStrain.max() > .01),
+    'failure': (lambda: plate(weibullModulus=8, **FAILS), 100, lambda fe: fe.numCracks > 0),
     'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0),
-    'clump on cracks': (fe_impact.wallAndClump, 150, lambda fe: fe.numCracks > 0),
+    'clump on cracks': (wallAndClump, 150, lambda fe: fe.numCracks > 0),
 }
 # YADE's loop changes the contacts of spheres before FESolver can refuse a step.
 kSpheres = 'elastic disc and sphere', 'clump on cracks'

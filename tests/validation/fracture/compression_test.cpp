@@ -126,16 +126,6 @@ void expectPeakAndCollapse(const RunResult& result) {
   record("shortened", result.shortened);
 }
 
-class UniaxialMesh : public testing::TestWithParam<Trial> {};
-
-TEST_P(UniaxialMesh, CarriesTheMohrCoulombLoadAndCollapses) {
-  expectPeakAndCollapse(uniaxial(GetParam()));
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, UniaxialMesh,
-                         testing::Values(Trial{kSize, 1}, Trial{kSize, 2}, Trial{kSize, 3}));
-INSTANTIATE_TEST_SUITE_P(Sizes, UniaxialMesh, testing::Values(Trial{2e-3}, Trial{.9e-3}));
-
 TEST(Uniaxial, TheLoadIsTheSameHoweverTheOutlineIsTurned) {
   double least = INFINITY, most = 0;
   for (const double turned : {0., 15., 30.}) {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "dynamics/element_state.hpp"
-#include "plasticity/yielding_bodies.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

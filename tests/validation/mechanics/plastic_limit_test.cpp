@@ -17,7 +17,7 @@
 #include "core/checks.hpp"
 #include "fracture/edge_strength.hpp"
 #include "fracture/overlaps.hpp"
-#include "plasticity/yielding_bodies.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

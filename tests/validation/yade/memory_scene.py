@@ -19,8 +19,7 @@ import numpy as np  # noqa: E402
 
 import scenes  # noqa: E402
 import yadefrag  # noqa: E402
-from fe_impact import brittle, engines, heapSpheres, impact  # noqa: E402
-from fe_scene import solverOfScene, steps, throwBall  # noqa: E402
+from fe_scene import brittle, brittleImpact, engines, heapSpheres, solverOfScene, steps, throwBall  # noqa: E402
 from scenes import O  # noqa: E402
 from yade import utils, wrapper as w  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
@@ -40,7 +39,7 @@ def cycle(number, folder, draw):
     """One scene from its beginning to its end; returns its number of cracks."""
     O.reset()
     finder = kColliders[number % len(kColliders)]
-    solver = impact(finder, threads=1 + number % 2, fractureEnergy=0, strengthScatter=.1)
+    solver = brittleImpact(finder, threads=1 + number % 2, fractureEnergy=0, strengthScatter=.1)
     if finder and draw.random() < .5:
         heapSpheres()
     solver.minFragmentArea = draw.choice((0, 4e-6))

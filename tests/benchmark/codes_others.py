@@ -1,13 +1,13 @@
-"""LAMMPS, Debian's, for codes.py: the scene that codes_yade.py wrote, as LAMMPS's input; its times and positions.
+"""LAMMPS and LIGGGHTS, Debian's, for codes.py: the scene that codes_yade.py wrote, as their input; times and positions.
 
 YADE's law in the words of LAMMPS: gran/hooke/history with the same stiffness along and across a contact, no
 damping, and the same coefficient of friction. Debian's LAMMPS has no OPENMP package: threads are MPI processes.
+LIGGGHTS's model hooke/stiffness with the tangential model history is YADE's law. Facets are a mesh in an STL file.
 """
 import json
 import math
 import os
 import re
-import shutil
 import subprocess
 
 import numpy as np
@@ -64,7 +64,7 @@ def motion(arrays, about):
     return lines
 
 
-def script(arrays, about, warm, steps):
+def lammpsScript(arrays, about, warm, steps):
     """LAMMPS's input."""
     most = int(kinds(arrays, about).max())
     law = f'{about["kn"]!r} {about["kt"]!r} 0 0 {about["friction"]!r} 0'
@@ -105,12 +105,12 @@ def run(program, folder, processes, limit, *arguments):
     return done.stdout
 
 
-def measure(folder, warm, steps, processes, limit):
+def measureLammps(folder, warm, steps, processes, limit):
     """{search, forces, integration, step: s per step; searches: number} of one run; positions go to `end`."""
     arrays, about = start(folder)
     writeData(os.path.join(folder, 'data'), arrays, about)
     with open(os.path.join(folder, 'in.lammps'), 'w') as out:
-        out.write(script(arrays, about, warm, steps))
+        out.write(lammpsScript(arrays, about, warm, steps))
     text = run('lmp', folder, processes, limit, '-in', 'in.lammps', '-log', 'none')
     # The second run is measured; the means over the processes.
     mean = lambda name: float(re.findall(rf'^{name} +\|[^|]*\| *(\S+)', text, re.M)[1]) / steps  # noqa: E731
@@ -124,6 +124,50 @@ def common(text, steps):
     return dict(step=float(loops[1]) / steps, searches=int(builds[1]))
 
 
-def exists():
-    """True if it is installed."""
-    return bool(shutil.which('lmp'))
+# --- LIGGGHTS
+
+def liggghtsScript(arrays, about, warm, steps):
+    """LIGGGHTS's input."""
+    most = int(kinds(arrays, about).max())
+    of = lambda value: f'peratomtypepair {most} ' + ' '.join([repr(value)] * most ** 2)  # noqa: E731
+    model = 'model hooke/stiffness tangential history'
+    lines = ['units si', 'atom_style granular', 'atom_modify map array', 'newton off', 'communicate single vel yes',
+             'boundary s s s', 'read_data data', *groups(arrays),
+             f'neighbor {SKIN * about["radius"]!r} bin',  # `multi` misses contacts of spheres of two types
+             'neigh_modify delay 0 every 1 check yes page 1000000 one 100000',
+             f'fix kn all property/global kn {of(about["kn"])}', f'fix kt all property/global kt {of(about["kt"])}',
+             f'fix gamman all property/global gamman {of(0.)}', f'fix gammat all property/global gammat {of(0.)}',
+             f'fix friction all property/global coefficientFriction {of(about["friction"])}',
+             f'pair_style gran {model}', 'pair_coeff * *', f'timestep {about["dt"]!r}']
+    if 'facets' in about:
+        lines += ['fix hopper all mesh/surface file facets.stl type 1',
+                  f'fix walls all wall/gran {model} mesh n_meshes 1 meshes hopper']
+    lines += motion(arrays, about)
+    return '\n'.join(lines + ['thermo 1000000', f'run {warm}', f'run {steps} pre no',
+                              'dump end all custom 1 end id x y z', 'dump_modify end sort id format "%d %.17g %.17g %.17g"',
+                              'run 0 post no']) + '\n'
+
+
+def writeFacets(path, facets):
+    """An STL file."""
+    with open(path, 'w') as out:
+        out.write('solid hopper\n')
+        for corners in facets:
+            out.write('facet normal 0 0 0\nouter loop\n')
+            out.writelines('vertex {:.17g} {:.17g} {:.17g}\n'.format(*corner) for corner in corners)
+            out.write('endloop\nendfacet\n')
+        out.write('endsolid hopper\n')
+
+
+def measureLiggghts(folder, warm, steps, processes, limit):
+    """As measureLammps."""
+    arrays, about = start(folder)
+    writeData(os.path.join(folder, 'data'), arrays, about)
+    if 'facets' in about:
+        writeFacets(os.path.join(folder, 'facets.stl'), about['facets'])
+    with open(os.path.join(folder, 'in.liggghts'), 'w') as out:
+        out.write(liggghtsScript(arrays, about, warm, steps))
+    text = run('liggghts', folder, processes, limit, '-in', 'in.liggghts', '-log', 'none')
+    # The fixes, integration among them, are in `Other`.
+    mean = lambda name: float(re.findall(rf'^{name} +time \(%\) = (\S+)', text, re.M)[1]) / steps  # noqa: E731
+    return dict(search=mean('Neigh'), forces=mean('Pair'), integration=mean('Other'), **common(text, steps))

@@ -1,4 +1,5 @@
-"""Bonds of bodies, whose nodes may differ along their common sides, from Python."""
+"""Bonds of bodies, whose nodes may differ along their common sides; strength and fracture energy by place, joints, grains;
+rateEffect, by which the strength increases with the strain rate. Bars of each curve and rate: tests/fracture."""
 import math
 import os
 import warnings
@@ -8,10 +9,9 @@ import pytest
 
 import outline_files as touching
 import yadefrag
-from fe_impact import engines, O
-from fe_scene import momentum
-from yade import utils
-from yade import wrapper as w
+from fe_scene import brittle, cracks, engines, heard, momentum, O, ready, reloaded
+from outline_files import area
+from yade import utils, wrapper as w
 
 
 def solverOf(**given):
@@ -60,11 +60,6 @@ def test_aBondHoldsAndBreaks(sizes, angle):
     assert np.abs(momentum(solver)[0] - before).max() < 1e-12 * solver.masses.sum() * 20
 
 
-def test_bodiesThatDoNotTouchAreRefused():
-    with pytest.raises(ValueError, match='No sides of the bodies 0 and 1'):
-        pair((.002, .002), gap=.01).bond(0, 1, 1e6, 100)
-
-
 def test_aBodyAddedLaterAndASphereTouchDividedSides():
     """A half bond, whose divided sides reach out of it; then a block above it, and a sphere."""
     solver = solverOf()
@@ -81,31 +76,6 @@ def test_aBodyAddedLaterAndASphereTouchDividedSides():
     assert O.bodies[ball].state.vel[1] > 0
     assert np.abs(momentum(solver)[0] - start).max() < 1e-9 * solver.masses.sum()
     assert len(solver.fragments()) == 2
-
-
-# --- a mesh file
-
-def test_aMeshFromAFileIsBondedToAPolygon(folder):
-    solver = solverOf()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.13, material='m')
-    lines = ['$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$Nodes', '%d' % len(solver.nodes)]
-    lines += ['%d %r %r 0' % (i + 1, float(x), float(y)) for i, (x, y) in enumerate(solver.nodes)]
-    lines += ['$EndNodes', '$Elements', '%d' % len(solver.triangles)]
-    lines += ['%d 2 2 1 1 %d %d %d' % (i + 1, *(int(n) + 1 for n in t)) for i, t in enumerate(solver.triangles)]
-    path = os.path.join(folder, 'square.msh')
-    with open(path, 'w') as file:
-        file.write('\n'.join(lines + ['$EndElements', '']))
-    mesh = yadefrag.readMesh(path)
-    solver = solverOf()
-    solver.addTriangles(mesh.nodes, mesh.triangles, 'm', velocity=lambda x, y: (x - 1, 0))
-    solver.addPolygon(yadefrag.rectangle((1, .2), (2, 1.3)), size=.07, material='m', velocity=lambda x, y: (x - 1, 0))
-    with warnings.catch_warnings(action='error'):
-        assert solver.bond(0, 1, 1e8, 1e7) >= 8
-    engines(solver, factor=.5)
-    energy = solver.energy['total']
-    O.run(50, True)
-    assert len(solver.fragments()) == 1
-    assert solver.energy['total'] == pytest.approx(energy, rel=1e-4)
 
 
 # --- masonry
@@ -203,3 +173,163 @@ def test_sidesThatCannotBeJoinedAreReportedAndNothingChanges():
     assert solver.crackCounts == dict(open=0, damaged=0, whole=0)
     with pytest.raises(ValueError, match='bondAll: 20 sides within 1e-06 m of another body are not bonded'):
         solver.bondAll(1e-6, 1e6, 1e4)
+
+
+# --- strength and fracture energy by place
+
+kBarLength, kBarHeight, kWeak, kWeakEnergy, kRate = .1, .02, 5e6, 60., 20.
+
+
+def inBand(x):
+    return abs(x - .7 * kBarLength) < .004
+
+
+def weakBar(**given):
+    """A bar that is drawn at a constant rate of strain; its stress is even."""
+    solver = w.FESolver()
+    material = brittle(young=1e9, poisson=0, density=1000, planeStress=True, fractureEnergy=1000, tensileStrength=50e6)
+    wanted = dict(strength=lambda x, y: kWeak if inBand(x) else 50e6,
+                  fractureEnergy=lambda x, y: kWeakEnergy if inBand(x) else 1000)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (kBarLength, kBarHeight)), size=.002, material=material,
+                      velocity=lambda x, y: (kRate * (x - kBarLength / 2), 0), fixed=lambda x, y: 'x' if x < 1e-9
+                      or x > kBarLength - 1e-9 else False, **{**wanted, **given})
+    engines(solver, factor=.4)
+    return solver
+
+
+def breakAtItsStrength(solver):
+    """The stress when the first edge cracks is the weakest strength, to the node's mean of stresses."""
+    while solver.numCracks == 0:
+        O.step()
+    assert 1e9 * kRate * O.time == pytest.approx(kWeak, rel=.02)
+    while len(solver.fragments()) < 2 and O.time < 2e-3:
+        O.run(50, True)
+
+
+def test_arraysAreTheSameAsFunctions(folder):
+    first = weakBar()
+    middles = (first.nodes[first.triangles]).mean(axis=1)
+    O.run(700, True)
+    nodes, energy = first.nodes, first.energy
+    O.reset()
+    again = weakBar(strength=np.array([kWeak if inBand(x) else 50e6 for x, _ in middles]),
+                     fractureEnergy=[kWeakEnergy if inBand(x) else 1000 for x, _ in middles])
+    O.run(300, True)
+    again = reloaded(os.path.join(folder, 'bar.yade'))
+    O.run(400, True)
+    assert again.numCracks > 0
+    assert np.array_equal(again.nodes, nodes) and again.energy == energy
+
+
+# --- joints
+
+kJoint = [((.03, .01), (.07, .01))]
+
+
+def plate(**given):
+    solver = w.FESolver()
+    wanted = dict(size=.004, material=brittle(fractureEnergy=20), joints=kJoint)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .02)), **{**wanted, **given})
+    return solver
+
+
+def test_anOpenJointIsTwoFacesFromTheStart():
+    cut = plate()
+    assert cut.numCracks == 0 and len(cut.fragments()) == 1
+    places = cracks(cut)
+    assert len(places) >= 8 and np.all(np.abs(places[:, 1] - .01) < 1e-12)
+    assert places[:, 0].min() > .03 and places[:, 0].max() < .07  # its ends are the crack's tips
+    faces = [loop for loop in cut.surfaces if len(loop) == 2 * (len(places) + 1)]
+    assert len(faces) == 1 and len(cut.surfaces) == 2
+    assert len(O.bodies) == sum(map(len, cut.surfaces))
+    engines(cut)
+    O.run(20, True)
+    assert abs(cut.energy['total']) < 1e-20  # rounding
+
+
+def test_aJointThroughABodyMakesTwo():
+    solver = plate(joints=[((.05, -1), (.05, 1))])
+    assert len(solver.fragments()) == 2
+    assert sum(f['mass'] for f in solver.fragments()) == pytest.approx(2500 * .002)
+
+
+def test_jointsHoldUpToTheirOwnStrength():
+    solver = weakBar(strength=None, fractureEnergy=None, joints=[((.07, 0), (.07, .02))],
+                      jointStrength=kWeak, jointEnergy=kWeakEnergy)
+    breakAtItsStrength(solver)
+    assert np.all(np.abs(cracks(solver)[:, 0] - .07) < 1e-9)
+    O.run(400, True)
+    # The error goes with how few steps an opening takes (tests/fracture/mode_one_test.cpp).
+    assert solver.energy['fracture'] == pytest.approx(kWeakEnergy * kBarHeight, rel=.01)
+
+
+# --- grains
+
+def test_grainsAsJointsOfOneBody():
+    outline = yadefrag.rectangle((0, 0), (.1, .02))
+    whole = plate(joints=()).criticalTimeStep()
+    O.reset()
+    grains = yadefrag.voronoi(outline, 30, seed=2, rounds=3, shortest=.0015)
+    joints = yadefrag.grainJoints(grains)
+    open_ = plate(joints=joints)
+    assert len(open_.fragments()) == 30
+    assert sorted(f['area'] for f in open_.fragments()) == pytest.approx(sorted(map(area, grains)), rel=1e-9)
+    O.reset()
+    weak = plate(joints=joints, jointStrength=1e6)
+    assert weak.criticalTimeStep() > whole / 8  # with sides of any length: a 200th
+    assert len(weak.fragments()) == 1
+    engines(weak)
+    O.run(20, True)
+    assert weak.numCracks == 0
+
+
+def test_grainsAsBodies():
+    solver = w.FESolver()
+    for grain in yadefrag.voronoi(yadefrag.rectangle((0, 0), (.1, .02)), 12, seed=2, rounds=3):
+        solver.addPolygon(grain, size=.004, material=brittle())
+    engines(solver)
+    O.run(50, True)
+    assert solver.maxPenetration < 1e-12 and solver.energy['kinetic'] < 1e-15
+
+
+# --- the strain rate
+
+kConcreteStrength, kConcreteEnergy, kYoung, kPoisson, kConcreteLength, kConcreteHeight = 3e6, 100., 30e9, .2, .06, .03
+
+
+def concrete(**more):
+    return w.BrittleFEMat(**dict(dict(young=kYoung, poisson=kPoisson, density=2400, frictionAngle=.6, planeStress=True,
+                                      tensileStrength=kConcreteStrength, fractureEnergy=kConcreteEnergy,
+                                      label='concrete'), **more))
+
+
+def test_anEffectMultipliesWhatAnEdgeHas():
+    """Strength by place, scatter, and that of a joint."""
+    O.materials.append(concrete(rateEffect=[(1e-3, 2), (1e3, 2)], strengthScatter=.1))
+    fe = w.FESolver()
+    fe.addPolygon(yadefrag.rectangle((0, 0), (kConcreteLength, kConcreteHeight)), size=.005, material=0,
+                  strength=lambda x, y: kConcreteStrength / 2, joints=[((kConcreteLength / 2, -1), (kConcreteLength / 2, 1))],
+                  jointStrength=kConcreteStrength / 4, jointEnergy=kConcreteEnergy,
+                  velocity=lambda x, y: (50 * x, 0), fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
+    ready(fe, .2)
+    while fe.numCracks < 20:
+        O.run(10, True)
+    table = yadefrag.crackTable(fe)
+    isJoint = abs(table['x'] - kConcreteLength / 2) < 1e-5
+    assert isJoint.any() and table['strength'][isJoint] == pytest.approx(np.full(isJoint.sum(), kConcreteStrength / 2))
+    others = table['strength'][~isJoint] / kConcreteStrength
+    assert len(others) and (others > .89).all() and (others < 1.11).all() and np.ptp(others) > 1e-3
+
+
+def test_messagesAndTheStepCountTheLargestFactor():
+    zone = kYoung * kConcreteEnergy / kConcreteStrength**2  # .33 m
+    said = {}
+    for effect in ('none', 'ceb-fip-2010'):
+        O.reset()
+        O.materials.append(concrete(rateEffect=effect))
+        fe = w.FESolver()
+        with heard() as said[effect]:
+            fe.addPolygon(yadefrag.rectangle((0, 0), (.8, .7)), size=zone / 10, material=0)
+    assert said['none'] == []
+    assert len(said['ceb-fip-2010']) == 1
+    assert ', with the factor 4.15 of rateEffect: the cohesive zone is 0.08031 m long' in said['ceb-fip-2010'][0]
