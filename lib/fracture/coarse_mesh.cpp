@@ -1,4 +1,4 @@
-#include "fracture/coarse_mesh.hpp"
+#include "fracture/brittle_checks.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "meshing/curve_numbering.hpp"
+#include "meshing/mesh_stages.hpp"
 
 #include <algorithm>
 #include <limits>

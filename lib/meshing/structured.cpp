@@ -1,4 +1,4 @@
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "meshing/curve_numbering.hpp"
+#include "meshing/mesh_stages.hpp"
 #include "meshing/triangle_quality.hpp"
 
 namespace yadefrag {

@@ -8,7 +8,6 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "meshing/curve_numbering.hpp"
 #include "meshing/mesh_stages.hpp"
 #include "meshing/triangle_quality.hpp"
 

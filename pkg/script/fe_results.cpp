@@ -4,14 +4,13 @@
 #include <limits>
 #include <vector>
 
+#include "fe/fe_solver.hpp"
 #include "fracture/cohesive_law.hpp"
-#include "fracture/edge_material.hpp"
+#include "fracture/edge_strength.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
-#include "script/definitions.hpp"
 #include "script/fragments.hpp"
-#include "script/shown_nodes.hpp"
-#include "step/overlap_depth.hpp"
+#include "step/overlap_check.hpp"
 
 namespace yadefrag {
 
@@ -109,43 +108,29 @@ py::dict cracksOf(const FESolver& solver) {
   const ShownNodes shown(world);
   for (auto& ends : columns.nodes)
     for (NodeId& node : ends) node = shown.number(node);
-  py::dict table;
-  table["component"] = toArray(columns.component);
-  table["other"] = toArray(columns.other);
-  table["triangle"] = toArray(columns.triangle);
-  table["nodes"] = toArray(columns.nodes);
-  table["x"] = toArray(columns.x), table["y"] = toArray(columns.y);
-  table["nx"] = toArray(columns.nx), table["ny"] = toArray(columns.ny);
-  table["opening"] = toArray(columns.opening);
-  table["slip"] = toArray(columns.slip);
-  table["damage"] = toArray(columns.damage);
-  table["held"] = toArray(columns.held).attr("view")("bool");
-  table["start"] = toArray(columns.start);
-  table["strength"] = toArray(columns.strength);
-  table["energy"] = toArray(columns.energy);
-  return table;
+  const CrackColumns& c = columns;
+  return dictOf("component", toArray(c.component), "other", toArray(c.other), "triangle",
+                toArray(c.triangle), "nodes", toArray(c.nodes), "x", toArray(c.x), "y",
+                toArray(c.y), "nx", toArray(c.nx), "ny", toArray(c.ny), "opening",
+                toArray(c.opening), "slip", toArray(c.slip), "damage", toArray(c.damage), "held",
+                toArray(c.held).attr("view")("bool"), "start", toArray(c.start), "strength",
+                toArray(c.strength), "energy", toArray(c.energy));
 }
 
 py::dict energyOf(const FESolver& solver) {
   const World& world = solver.world();
   const EnergyLedger& ledger = world.ledger;
-  const double kinetic = world.kineticEnergy();
-  const double strain = world.strainEnergy();
-  py::dict result;
-  result["kinetic"] = kinetic;
-  result["strain"] = strain;
-  result["contact"] = ledger.contact;
-  result["friction"] = ledger.friction;
-  result["fracture"] = ledger.fracture;
+  const double kinetic = world.kineticEnergy(), strain = world.strainEnergy();
   const double pending = world.pendingPlastic();
+  const double total = ledger.total(kinetic, strain) + pending;
+  py::dict result = dictOf("kinetic", kinetic, "strain", strain, "contact", ledger.contact,
+                           "friction", ledger.friction, "fracture", ledger.fracture);
   if (world.model.triangles.plastic.isUsed()) result["plastic"] = ledger.plastic + pending;
   result["damping"] = ledger.damping;
-  if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
+  if (world.dropped.count > 0 || world.fracture.minFragmentArea > 0)
     result["dropped"] = ledger.dropped;
-  result["outside"] = -ledger.external;
-  result["total"] = ledger.total(kinetic, strain) + pending;
-  if (solver.balance().any())
-    result["scene"] = ledger.total(kinetic, strain) + pending + solver.balance().created();
+  fill(result, "outside", -ledger.external, "total", total);
+  if (solver.balance().any()) result["scene"] = total + solver.balance().created();
   return result;
 }
 
@@ -166,14 +151,10 @@ py::list warningsOf(const FESolver& solver) {
 }
 
 py::dict droppedOf(const FESolver& solver) {
-  const World& world = solver.world();
-  const Dropped& dropped = world.dropped;
-  py::dict result;
-  result["mass"] = dropped.mass;
-  result["momentum"] = py::make_tuple(dropped.momentum.x, dropped.momentum.y);
-  result["energy"] = world.ledger.dropped;
-  result["count"] = dropped.count;
-  return result;
+  const Dropped& dropped = solver.world().dropped;
+  return dictOf("mass", dropped.mass, "momentum",
+                py::make_tuple(dropped.momentum.x, dropped.momentum.y), "energy",
+                solver.world().ledger.dropped, "count", dropped.count);
 }
 
 py::list fragmentsOf(const FESolver& solver, bool held) {
@@ -181,15 +162,11 @@ py::list fragmentsOf(const FESolver& solver, bool held) {
   py::list result;
   for (const Fragment& fragment :
        findFragments(world.model, nullptr, held ? &world.fracture : nullptr)) {
-    py::dict one;
-    one["component"] = fragment.component.value;
-    one["triangles"] = fragment.triangles;
-    one["mass"] = fragment.mass;
-    one["area"] = fragment.area;
-    one["centroid"] = py::make_tuple(fragment.centroid.x, fragment.centroid.y);
-    one["velocity"] = py::make_tuple(fragment.velocity.x, fragment.velocity.y);
-    one["spin"] = fragment.spin;
-    result.append(one);
+    const Vec2 centre = fragment.centroid, velocity = fragment.velocity;
+    result.append(dictOf("component", fragment.component.value, "triangles", fragment.triangles,
+                         "mass", fragment.mass, "area", fragment.area, "centroid",
+                         py::make_tuple(centre.x, centre.y), "velocity",
+                         py::make_tuple(velocity.x, velocity.y), "spin", fragment.spin));
   }
   return result;
 }

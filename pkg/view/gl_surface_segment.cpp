@@ -1,4 +1,4 @@
-#include "view/gl_surface_segment.hpp"
+#include "view/body_picture.hpp"
 
 #include <GL/gl.h>
 #include <dlfcn.h>

@@ -9,7 +9,6 @@
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/flowed_shape.hpp"
-#include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {

@@ -8,7 +8,6 @@
 #include "core/errors.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
-#include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {

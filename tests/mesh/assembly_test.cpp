@@ -7,8 +7,7 @@
 #include "core/errors.hpp"
 #include "dynamics/element_state.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/initial_stress.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "core/errors.hpp"
 #include "curve/position_code.hpp"
-#include "meshing/curve_numbering.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/mesh_stages.hpp"
+#include "meshing/triangulate.hpp"
 #include "outline/polygons.hpp"
 
 namespace yadefrag {

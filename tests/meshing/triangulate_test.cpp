@@ -14,7 +14,7 @@
 #include "core/random_bits.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
-#include "meshing/curve_numbering.hpp"
+#include "meshing/mesh_stages.hpp"
 #include "meshing/triangulate.hpp"
 #include "outline/polygons.hpp"
 

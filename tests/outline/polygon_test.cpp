@@ -10,10 +10,8 @@
 
 #include "core/checks.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "outline/convex_hull.hpp"
 #include "outline/polygon.hpp"
 #include "outline/polygons.hpp"
-#include "outline/snap.hpp"
 
 namespace yadefrag::test {
 namespace {

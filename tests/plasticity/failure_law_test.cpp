@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "dynamics/plastic_damage.hpp"
+#include "dynamics/plastic_flow.hpp"
 #include "plasticity/yielding_bodies.hpp"
 
 namespace yadefrag::test {

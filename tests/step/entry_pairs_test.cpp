@@ -1,6 +1,6 @@
 // From boxes to slaves in their masters' halo: nothing is lost on the way.
 
-#include "step/entry_pairs.hpp"
+#include "step/halo_watch.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>

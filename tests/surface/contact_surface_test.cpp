@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cut_mesh.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "surface/contact_surface.hpp"
 #include "surface_checks.hpp"
 

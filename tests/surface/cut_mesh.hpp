@@ -14,7 +14,7 @@
 
 #include "cut_mesh.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "surface/relink.hpp"
+#include "surface/contact_surface.hpp"
 #include "surface_checks.hpp"
 
 namespace yadefrag {

@@ -1,4 +1,4 @@
-#include "surface/relink.hpp"
+#include "surface/contact_surface.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 #include "contact/pass_rule.hpp"
 #include "cut_mesh.hpp"
-#include "meshing/structured.hpp"
-#include "step/entry_pairs.hpp"
+#include "meshing/triangulate.hpp"
+#include "step/halo_watch.hpp"
 
 namespace yadefrag {
 namespace {
