@@ -12,8 +12,8 @@
 
 namespace yadefrag {
 
-// --- Damage of materials that yield, in a step (mesh/plastic_material.hpp): it follows the flow of each
-// triangle. Triangles that have failed are listed, so that cracks look at their edges.
+// --- Damage of materials that yield, in a step (mesh/plastic_material.hpp): it follows the flow of
+// each triangle. Triangles that have failed are listed, so that cracks look at their edges.
 
 /// Stress after the return, and the flow that led to it.
 struct FlowStep {

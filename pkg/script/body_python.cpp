@@ -116,8 +116,9 @@ py::object bonded(FESolver& solver, const Work& work) {
     std::string problem;
     if (py::extract<std::size_t>(result.found.attr("sides")) > 0)
       problem = bondZoneWarning(world.model, world.fracture.edges, first);
-    result.found.attr("__dict__").attr("update")(
-        dictOf("corners", result.done.corners, "farthest", result.done.farthest, "problem", problem));
+    result.found.attr("__dict__")
+        .attr("update")(dictOf("corners", result.done.corners, "farthest", result.done.farthest,
+                               "problem", problem));
     return result;
   };
   return change(solver, [&] { return solver.bond(bondAndTell).found; });
