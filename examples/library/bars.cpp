@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 using namespace yadefrag;

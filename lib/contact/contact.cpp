@@ -10,7 +10,6 @@
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/contact.hpp"
-#include "core/tolerances/solver.hpp"
 #include "core/tolerances/step.hpp"
 
 namespace yadefrag {

@@ -8,14 +8,11 @@
 
 #include "contact/candidates.hpp"
 #include "contact/contact_row.hpp"
-#include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
-#include "contact/pairs_of_slaves.hpp"
 #include "contact/pass_rule.hpp"
 #include "contact/row_finder.hpp"
 #include "contact/row_sweeps.hpp"
-#include "core/stage_times.hpp"
-#include "core/step_length.hpp"
+#include "core/step_times.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 

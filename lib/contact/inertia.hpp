@@ -10,8 +10,8 @@
 
 #include "contact/contact_row.hpp"
 #include "core/csr.hpp"
-#include "core/step_length.hpp"
-#include "mesh/mobility.hpp"
+#include "core/step_times.hpp"
+#include "mesh/model.hpp"
 
 namespace yadefrag {
 

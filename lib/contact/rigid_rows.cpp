@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/tolerances/solver.hpp"
+#include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances/solver.hpp"
+#include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
-#include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
 #include "contact/rigid_rows.hpp"
 #include "contact/row_system.hpp"

@@ -2,7 +2,9 @@
 // Random numbers with the same bits on every machine; the distributions of <random> do not
 // guarantee that.
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace yadefrag {
 
@@ -29,6 +31,26 @@ class RandomSequence {
   std::uint64_t next() { return mixBits(state_ += kRandomStride); }
 
   std::uint64_t state_;
+};
+
+/// A 64-bit checksum that depends on every bit of the data and on their order. `mixBits` is
+/// one-to-one, so that a single changed word is always detected.
+class Checksum {
+ public:
+  void add(std::uint64_t word) { sum_ = mixBits((sum_ ^ word) + kRandomStride); }
+  void add(const void* data, std::size_t bytes) {
+    add(std::uint64_t{bytes});
+    const auto* at = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < bytes; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, at + i, bytes - i < sizeof word ? bytes - i : sizeof word);
+      add(word);
+    }
+  }
+  [[nodiscard]] std::uint64_t value() const { return sum_; }
+
+ private:
+  std::uint64_t sum_ = 0;
 };
 
 }  // namespace yadefrag

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/lane_math.hpp"
-#include "core/tolerances/plasticity.hpp"
+#include "core/lanes.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/yield_law.hpp"
 #include "mesh/plastic_material.hpp"
 

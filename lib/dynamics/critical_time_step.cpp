@@ -10,7 +10,6 @@
 #include "core/parallel.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 #include "mesh/assembly.hpp"
 #include "meshing/triangle_quality.hpp"

@@ -1,9 +1,5 @@
 #include "dynamics/element_state.hpp"
 
-#include "dynamics/collapse_barrier.hpp"
-#include "dynamics/smoothed_state.hpp"
-#include "dynamics/yielding_state.hpp"
-
 namespace yadefrag {
 namespace {
 

@@ -1,9 +1,6 @@
 #include "dynamics/energy_ledger.hpp"
 
-#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
-#include "dynamics/smoothed_state.hpp"
-#include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "core/step_length.hpp"
+#include "core/step_times.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/threads.hpp"
 #include "dynamics/element_kernel.hpp"

@@ -10,7 +10,6 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
-#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 

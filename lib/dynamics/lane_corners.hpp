@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/instruction_set.hpp"
+#include "core/lanes.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/vec2.hpp"
 #include "dynamics/elastic_law.hpp"

@@ -1,6 +1,62 @@
 #pragma once
-// Bodies that yield, in a step: the state of their triangles follows the positions xⁿ, at which the
-// forces are computed. With ElementKind::kSmoothed the volume ratio is averaged at the nodes
+// Bodies that yield, in a step: damage and flow.
+
+#include <span>
+#include <vector>
+
+#include "dynamics/element_kernel.hpp"
+#include "dynamics/node_sums.hpp"
+#include "dynamics/plastic_kernel.hpp"
+#include "dynamics/plastic_return.hpp"
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+// --- Damage of materials that yield, in a step (mesh/plastic_material.hpp): it follows the flow of
+// each triangle. Triangles that have failed are listed, so that cracks look at their edges.
+
+/// Stress after the return, and the flow that led to it.
+struct FlowStep {
+  double strain;       ///< Δp
+  double temperature;  ///< K, before
+  double mean, mises;  ///< Pa, of τ; mean and von Mises' stress; of a cone before the return
+  double volume;       ///< τ/σ: J, or det F of a cone
+  double resistance;   ///< factor of the failure strain and of the spall stress
+};
+
+/// The damage after a step of Δt (s), from that before it; at most 1.
+[[nodiscard]] double damageAfter(const PlasticMaterial& m, double damage, const FlowStep& step,
+                                 double dt);
+
+class PlasticDamage {
+ public:
+  void rebuild(const Model& model);
+  /// Before each step.
+  void begin(std::size_t threads);
+  /// Of a triangle that is about to fail or has flowed.
+  void add(Model& model, const PlasticMaterial& m, std::uint32_t element, const FlowStep& step,
+           double dt, std::size_t thread);
+  /// Undoes the changes of the last step.
+  void takeBack(Model& model);
+  /// Appends the triangles that have failed.
+  void appendFailed(std::vector<ElementRange>& ranges) const;
+
+ private:
+  struct Former {
+    std::uint32_t element;
+    double damage;
+  };
+  struct Thread {
+    std::vector<Former> former;
+    std::vector<std::uint32_t> failed;  // in the last step
+  };
+
+  std::vector<std::uint32_t> failed_;  // before it, ascending
+  std::vector<Thread> threads_;
+};
+
+// --- Bodies that yield, in a step: the state of their triangles follows the positions xⁿ, at which
+// the forces are computed. With ElementKind::kSmoothed the volume ratio is averaged at the nodes
 // (Bonet and Burton 1998, Commun. Numer. Meth. Eng. 14, 437): a node has the pressure of its
 // triangles' whole volume, and a triangle the mean pressure of its nodes. Linear triangles, which
 // would lock in flow without change of volume, do not lock then. No cost if no body yields.
@@ -10,15 +66,6 @@
 // determine the rest of the flow and the forces. These are then the exact gradient of the energy,
 // no triangle is left above the yield surface, and the plastic work is the stress times the strain
 // of the flow.
-
-#include <span>
-#include <vector>
-
-#include "dynamics/node_sums.hpp"
-#include "dynamics/plastic_damage.hpp"
-#include "dynamics/plastic_kernel.hpp"
-
-namespace yadefrag {
 
 class PlasticFlow {
  public:

@@ -13,9 +13,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/lane_math.hpp"
+#include "core/lanes.hpp"
 #include "core/tolerances/dynamics.hpp"
-#include "core/tolerances/plasticity.hpp"
 #include "dynamics/flow_lanes.hpp"
 #include "dynamics/lane_corners.hpp"
 #include "dynamics/plastic_return.hpp"

@@ -1,4 +1,4 @@
-#include "dynamics/smoothed_kernel.hpp"
+#include "dynamics/strain_smoothing.hpp"
 
 #include <cmath>
 

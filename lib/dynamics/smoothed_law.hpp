@@ -17,7 +17,7 @@
 #include <cmath>
 
 #include "dynamics/elastic_law.hpp"
-#include "mesh/elastic_material.hpp"
+#include "mesh/body_material.hpp"
 
 namespace yadefrag {
 

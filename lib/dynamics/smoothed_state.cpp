@@ -1,10 +1,8 @@
-#include "dynamics/smoothed_state.hpp"
+#include "dynamics/element_state.hpp"
 
 #include <algorithm>
 
 #include "core/arrays.hpp"
-#include "dynamics/collapse_barrier.hpp"
-#include "dynamics/element_state.hpp"
 
 namespace yadefrag {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "core/step_length.hpp"
-#include "core/time_table.hpp"
+#include "core/step_times.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "mesh/model.hpp"
+#include "mesh/motion.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {

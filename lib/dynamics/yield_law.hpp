@@ -11,10 +11,10 @@
 //   e₁₁ − e₂₂ + 2i e₁₂ = 2 u artanh|u|/|u|,  e₃₃ = ⅓ log(λ²/det F),
 // and in the present frame u is w z/|z|². e is elastic and therefore small: series.
 
-#include "core/lane_math.hpp"
-#include "core/tolerances/plasticity.hpp"
+#include "core/lanes.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/elastic_law.hpp"
-#include "mesh/elastic_material.hpp"
+#include "mesh/body_material.hpp"
 
 namespace yadefrag {
 

@@ -1,12 +1,10 @@
-#include "dynamics/yielding_state.hpp"
+#include "dynamics/element_state.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances/plasticity.hpp"
-#include "dynamics/collapse_barrier.hpp"
-#include "dynamics/element_state.hpp"
-#include "dynamics/plastic_damage.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "dynamics/plastic_flow.hpp"
 
 namespace yadefrag {
 namespace {

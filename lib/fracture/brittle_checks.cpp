@@ -10,11 +10,9 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/fracture.hpp"
-#include "fracture/coarse_mesh.hpp"
-#include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/material_constants.hpp"
-#include "outline/convex_hull.hpp"
+#include "outline/polygon.hpp"
 
 namespace yadefrag {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/tolerances/fracture.hpp"
-#include "fracture/edge_material.hpp"
-#include "mesh/mobility.hpp"
+#include "fracture/edge_strength.hpp"
+#include "mesh/model.hpp"
 
 namespace yadefrag {
 namespace {

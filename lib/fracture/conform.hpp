@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fracture/crack_edges.hpp"
+#include "surface/contact_surface.hpp"
 
 namespace yadefrag {
 
@@ -39,5 +40,21 @@ struct ConformPlan {
 /// widest gap. Nodes at bonds and faces of cracks do not move.
 [[nodiscard]] ConformPlan planConforming(const Model& model, const CrackEdges& edges,
                                          std::span<const ComponentId> bodies, double reach);
+
+// --- Moves boundary nodes and divides boundary sides, with the triangles behind them: all data by
+// node and triangle follow, and no triangle's deformation gradient changes.
+
+/// The boundary after sides were divided, for `relink` and for loads on segments.
+struct DividedSides {
+  std::vector<SurfaceSide> sides;
+  std::vector<SegmentId> parents;  ///< by new segment, in order: the one that was divided
+};
+
+/// Positions (present and stress-free) and velocities of moved and new nodes are those of the
+/// triangles there; new nodes are held as both ends of their side are. New triangles follow those
+/// of their body, so that triangles of later bodies get higher numbers. The mass of a body changes
+/// only with its area.
+DividedSides conform(Model& model, CrackEdges& edges, const ContactSurfaces& surfaces,
+                     const ConformPlan& plan);
 
 }  // namespace yadefrag

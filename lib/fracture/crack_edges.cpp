@@ -7,7 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 
 namespace yadefrag {

@@ -1,4 +1,4 @@
-#include "fracture/face_couple.hpp"
+#include "fracture/cohesion.hpp"
 
 #include <algorithm>
 

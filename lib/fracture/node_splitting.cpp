@@ -1,4 +1,4 @@
-#include "fracture/node_splitting.hpp"
+#include "fracture/fracture.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "fracture/side_splitting.hpp"
+#include "fracture/conform.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 
 #include "dynamics/element_state.hpp"
 #include "dynamics/flowed_shape.hpp"
-#include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 

@@ -7,9 +7,8 @@
 
 #include "core/tolerances/fracture.hpp"
 #include "dynamics/element_state.hpp"
-#include "fracture/edge_material.hpp"
+#include "fracture/edge_strength.hpp"
 #include "fracture/separation.hpp"
-#include "fracture/tip_pull.hpp"
 
 namespace yadefrag {
 namespace {

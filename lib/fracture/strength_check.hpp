@@ -3,7 +3,7 @@
 // weighted by area; at an edge it is the mean of its ends. Where triangles of several materials
 // meet, only those of the edge's own one or two materials are used: along an interface the stress
 // component parallel to it jumps, only the traction on it is continuous. With a fracture energy,
-// the traction at the tip of a notch or a crack is used as well (tip_pull.hpp).
+// the traction at the tip of a notch or a crack is used as well (separation.hpp).
 //
 // With a rate effect an edge is overloaded from the strength of slow tests on, and cracks when its
 // traction reaches that strength times the factor of the strain rate. The rate is the mean one of

@@ -1,4 +1,4 @@
-#include "fracture/tip_pull.hpp"
+#include "fracture/separation.hpp"
 
 #include <algorithm>
 #include <cmath>

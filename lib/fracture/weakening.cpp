@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "core/arrays.hpp"
-#include "core/tolerances/plasticity.hpp"
-#include "dynamics/yielding_state.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "dynamics/element_state.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/strength_check.hpp"
-#include "fracture/tip_pull.hpp"
 
 namespace yadefrag {
 

@@ -3,13 +3,22 @@
 // states and Python's attributes are made from these lists, so that a new constant needs a member
 // of its struct and a line in material_constants.cpp.
 
+#include <fmt/core.h>
+
 #include <span>
 #include <string>
+#include <string_view>
 
-#include "core/wrong_value.hpp"
 #include "mesh/body_material.hpp"
 
 namespace yadefrag {
+
+/// A sentence about a value that is refused; `unit` with a leading space, or empty; `right`: what
+/// it must be.
+inline std::string wrongValue(std::string_view name, double value, std::string_view unit,
+                              std::string_view right) {
+  return fmt::format("{} is {:g}{}; it must be {}.", name, value, unit, right);
+}
 
 struct Limits {
   bool (*hold)(double value);

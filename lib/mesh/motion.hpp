@@ -1,18 +1,50 @@
 #pragma once
-// Prescribed motions that vary with time. Held nodes move with a frame that is translated and
+// Prescribed motions of nodes, and tables in time.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec2.hpp"
+
+namespace yadefrag {
+
+// --- A piecewise linear function of time, constant before its first time and after its last.
+
+class TimeTable {
+ public:
+  TimeTable() = default;
+  explicit TimeTable(double constant) : TimeTable({0}, {constant}) {}
+  /// `times` (s), ascending; one value for each.
+  TimeTable(std::vector<double> times, std::vector<double> values);
+
+  /// True if there is at least one value, as many values as times, all are finite, and the times
+  /// ascend.
+  [[nodiscard]] static bool isValid(const std::vector<double>& times,
+                                    const std::vector<double>& values);
+
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+
+  /// 0 for a table without values.
+  [[nodiscard]] double at(double time) const;
+  /// Exact, except for rounding.
+  [[nodiscard]] double integral(double from, double to) const;
+
+ private:
+  [[nodiscard]] std::size_t after(double time) const;
+  [[nodiscard]] double sumUpTo(double time) const;
+
+  std::vector<double> times_, values_;
+  std::vector<double> sums_;  // integral from the first time to each time
+};
+
+// --- Prescribed motions that vary with time. Held nodes move with a frame that is translated and
 // rotated.
 //
 // At the end of each step a node is put at its position in the frame. If it moved with a velocity
 // along the tangent, which is exact for translations only, it would leave its circle by (ωΔt)²/2
 // per step.
-
-#include <cstdint>
-#include <vector>
-
-#include "core/time_table.hpp"
-#include "core/vec2.hpp"
-
-namespace yadefrag {
 
 struct Motion {
   Vec2 centre = {};                    ///< m, centre of rotation at `begin`

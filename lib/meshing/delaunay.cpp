@@ -10,7 +10,6 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "meshing/curve_numbering.hpp"
 
 namespace yadefrag {
 namespace {

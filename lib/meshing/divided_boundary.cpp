@@ -1,4 +1,4 @@
-#include "meshing/divided_boundary.hpp"
+#include "meshing/mesh_stages.hpp"
 
 #include <fmt/core.h>
 

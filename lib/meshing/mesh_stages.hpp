@@ -1,15 +1,52 @@
 #pragma once
-// The stages of `triangulate` after the boundary has been divided: nodes inside, triangles between
-// all nodes, better triangles.
+// The stages of `triangulate`.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "meshing/divided_boundary.hpp"
+#include "mesh/triangle_mesh.hpp"
+#include "meshing/joint_lines.hpp"
+#include "meshing/size_field.hpp"
 
 namespace yadefrag {
+
+// --- The loops and joints of a polygon, with long edges divided: they give all nodes of the mesh
+// that must not be moved.
+
+struct DividedBoundary {
+  std::vector<Vec2> nodes;  ///< m, loop by loop, material on the left; then those on joints
+  std::vector<Vec2> given;  ///< m, the same, also where triangulate has scaled and rounded `nodes`
+  std::vector<std::uint32_t> first;   ///< first node of each loop, and one past the last
+  std::vector<std::uint32_t> vertex;  ///< vertex of each loop node, see TriangleMesh::loopVertices
+  std::vector<std::array<std::uint32_t, 3>> joints;  ///< see TriangleMesh
+  JoinedTraces joined;
+
+  [[nodiscard]] std::size_t numLoops() const { return first.size() - 1; }
+
+  /// Calls `visit(begin, end)` for each edge of the loops.
+  template <class Visit>
+  void forEachEdge(Visit visit) const {
+    for (std::size_t loop = 0; loop + 1 < first.size(); ++loop)
+      for (std::uint32_t i = first[loop]; i < first[loop + 1]; ++i)
+        visit(i, i + 1 == first[loop + 1] ? first[loop] : i + 1);
+  }
+};
+
+/// Checks `given` and divides each edge into round(length/size) equal parts, at least one. If the
+/// size varies, the parts have the local size, all multiplied by one factor. Vertex numbers are
+/// those of `given`. Joints are divided in the same way. Throws InputError as checkPolygon and
+/// cutAtJoints, and for a size that is not positive and finite, or too small for 32-bit numbers,
+/// for the rounding of the coordinates, or for `mostBytes` of memory.
+[[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, const SizeField& size,
+                                             double mostBytes = INFINITY,
+                                             const JointLines& joints = {},
+                                             double jointTolerance = 0);
+
+// --- The stages of `triangulate` after the boundary has been divided: nodes inside, triangles
+// between all nodes, better triangles.
 
 /// A mesh under construction: each triangle stores its neighbours.
 struct LinkedTriangles {
@@ -58,5 +95,15 @@ struct LinkedTriangles {
 /// the time step depends: with scattered nodes some triangles are far smaller than their
 /// neighbours.
 void improve(LinkedTriangles& mesh, bool evenHeights = false);
+
+// --- Numbering along the Lebesgue curve: points that are near in the plane are near in memory.
+
+/// The indices of the points in their order along the curve; points with the same code keep their
+/// order. The curve's grid has 2^20 boxes along the longer side of the bounding box.
+[[nodiscard]] std::vector<std::uint32_t> orderAlongCurve(std::span<const Vec2> points);
+
+/// Renumbers the nodes by position and the triangles by centroid. Each triangle then begins with
+/// its lowest node, each loop, too. Returns the former number of each node.
+std::vector<std::uint32_t> numberAlongCurve(TriangleMesh& mesh);
 
 }  // namespace yadefrag

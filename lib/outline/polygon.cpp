@@ -1,12 +1,12 @@
 #include "outline/polygon.hpp"
 
-#include <fmt/core.h>
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/box_intersection_d.h>
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +15,7 @@
 #include "core/errors.hpp"
 
 namespace yadefrag {
+
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -204,6 +205,41 @@ Polygon checkPolygon(Polygon polygon) {
   orient(polygon.outline, CGAL::COUNTERCLOCKWISE);
   for (Loop& hole : polygon.holes) orient(hole, CGAL::CLOCKWISE);
   return polygon;
+}
+
+std::vector<Vec2> hullOf(std::vector<Vec2> points, double rounding) {
+  std::ranges::sort(points, [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Vec2> hull;
+  for (const bool upper : {false, true}) {
+    const std::size_t start = hull.size();
+    for (const Vec2 point : points) {
+      while (hull.size() > start &&
+             (norm(point - hull.back()) <= rounding ||
+              (hull.size() > start + 1 &&
+               cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <=
+                   rounding * norm(point - hull[hull.size() - 2]))))
+        hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    if (!upper) std::ranges::reverse(points);
+  }
+  return hull;
+}
+
+double smallestWidth(std::vector<Vec2> points) {
+  const std::vector<Vec2> hull = hullOf(std::move(points), 0);
+  if (hull.size() < 3) return 0;
+  double least = INFINITY;
+  const auto at = [&](std::size_t i) { return hull[i % hull.size()]; };
+  std::size_t far = 1;  // the farthest from the side; it moves on with the side
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 side = at(i + 1) - at(i);
+    far = std::max(far, i + 1);
+    while (cross(side, at(far + 1) - at(far)) > 0) ++far;
+    least = std::min(least, cross(side, at(far) - at(i)) / norm(side));
+  }
+  return least;
 }
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-#include "outline/snap.hpp"
+#include "outline/polygon.hpp"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,6 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "outline/polygon.hpp"
 #include "search/contact_search.hpp"
 
 namespace yadefrag {

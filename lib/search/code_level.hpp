@@ -10,7 +10,7 @@
 #include "core/parallel.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
-#include "search/filter_list.hpp"
+#include "search/filter_box.hpp"
 #include "search/sorted_list.hpp"
 
 namespace yadefrag {

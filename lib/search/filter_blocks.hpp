@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/arrays.hpp"
-#include "core/instruction_set.hpp"
+#include "core/lanes.hpp"
 #include "curve/numbering.hpp"
 #include "search/filter_box.hpp"
 

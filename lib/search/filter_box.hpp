@@ -2,11 +2,15 @@
 // Boxes in single precision for a quick first test.
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
 
+#include "core/arrays.hpp"
 #include "core/box.hpp"
 
 namespace yadefrag {
@@ -59,5 +63,28 @@ inline bool surelyOverlap(const FilterBox& a, const FilterBox& b) {
     sure &= bool((a.min[axis] < b.max[axis]) & (b.min[axis] < a.max[axis]));
   return sure;
 }
+
+/// The filter boxes of a sorted list, one after the other, for short ranges that begin anywhere.
+/// filter_blocks.hpp has another layout.
+class FilterList {
+ public:
+  static constexpr std::size_t kTogether = 1;  ///< boxes that are written by one thread
+
+  void resize(std::size_t size) { growTo(boxes_, size); }
+  void set(std::size_t i, const FilterBox& box) { boxes_[i] = box; }
+  [[nodiscard]] const FilterBox& operator[](std::size_t i) const { return boxes_[i]; }
+
+  /// Calls `found(j)` for each box from index `begin` on, with a code ≤ `stop`, that may overlap
+  /// `box`. `codes`: ascending, with greater ones than any `stop` behind the last.
+  template <class Found>
+  void forEachNear(const FilterBox& box, const std::uint64_t* codes, std::size_t begin,
+                   std::uint64_t /*start*/, std::uint64_t stop, Found found) const {
+    for (std::size_t j = begin; codes[j] <= stop; ++j)
+      if (mayOverlap(box, boxes_[j])) found(j);
+  }
+
+ private:
+  std::vector<FilterBox> boxes_;
+};
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-#include "search/hierarchy.hpp"
+#include "search/hierarchy_search.hpp"
 
 #include <algorithm>
 

@@ -10,7 +10,6 @@
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/initial_stress.hpp"
 #include "mesh/material_constants.hpp"
 #include "step/world.hpp"
 
@@ -27,10 +26,10 @@ void require(bool holds, const char* name, double value, const char* unit, const
 }
 
 template <class Values>
-void requireLength(const char* name, const Values& values, const TriangleMesh& mesh) {
-  if (values.empty() || values.size() == mesh.nodes.size()) return;
-  throw InputError(fmt::format("{} has {} values, but the mesh has {} nodes.", name, values.size(),
-                               mesh.nodes.size()));
+void requireCount(const char* name, const Values& values, std::size_t count, const char* what) {
+  if (values.empty() || values.size() == count) return;
+  throw InputError(
+      fmt::format("{} has {} values, but the mesh has {} {}.", name, values.size(), count, what));
 }
 
 void requireFinite(const char* name, const std::vector<Vec2>& values) {
@@ -62,14 +61,6 @@ void checkDisplacement(const TriangleMesh& mesh, const std::vector<Vec2>& displa
                     "its corners' counter-clockwise order.",
                     mesh.nodes[a].x, mesh.nodes[a].y));
   }
-}
-
-template <class Value>
-void requireOfTriangles(const char* name, const std::vector<Value>& values,
-                        const TriangleMesh& mesh) {
-  if (values.empty() || values.size() == mesh.triangles.size()) return;
-  throw InputError(fmt::format("{} has {} values, but the mesh has {} triangles.", name,
-                               values.size(), mesh.triangles.size()));
 }
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
@@ -111,7 +102,7 @@ void checkMaterials(const TriangleMesh& mesh, const BodySpec& spec) {
           "bonded to the others.");
     checkMaterial(one);
   }
-  requireOfTriangles("material", spec.materials.ofTriangle, mesh);
+  requireCount("material", spec.materials.ofTriangle, mesh.triangles.size(), "triangles");
   for (const std::uint32_t number : spec.materials.ofTriangle)
     require(number < spec.materials.materials.size(), "material", number, "",
             "the number of one of the body's materials");
@@ -136,8 +127,8 @@ void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
         "PlasticFEMat that fails.");
   const bool spalls = spec.plastic.failure.spallStress < FailureLaw::kNone;
   const auto notNegative = [](double value) { return value >= 0 && std::isfinite(value); };
-  requireOfTriangles("strength", places.strength, mesh);
-  requireOfTriangles("fractureEnergy", places.fractureEnergy, mesh);
+  requireCount("strength", places.strength, mesh.triangles.size(), "triangles");
+  requireCount("fractureEnergy", places.fractureEnergy, mesh.triangles.size(), "triangles");
   for (const double one : places.strength)
     require(isPositive(one), "strength", one, spec.plastic.fails() ? "" : " Pa",
             "positive and finite for every triangle");
@@ -238,10 +229,10 @@ void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
 
 void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
   if (spec.stress.empty()) return;
-  requireOfTriangles("stress", spec.stress, mesh);
+  requireCount("stress", spec.stress, mesh.triangles.size(), "triangles");
   if (!spec.displacement.empty())
     throw InputError("displacement and stress are both given, but only one of them can be.");
-  requireOfTriangles("stress", spec.stressAcross, mesh);
+  requireCount("stress", spec.stressAcross, mesh.triangles.size(), "triangles");
   for (std::size_t t = 0; t < spec.stress.size(); ++t) {
     const auto& stress = spec.stress[t];
     const ElasticMaterial& material = materialOf(spec, t).material;
@@ -265,10 +256,11 @@ void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
 }  // namespace
 
 void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
-  requireLength("velocity", spec.velocity, mesh);
-  requireLength("displacement", spec.displacement, mesh);
-  requireLength("held", spec.held, mesh);
-  requireLength("smoothNodes", spec.smoothNodes, mesh);
+  const std::size_t nodes = mesh.nodes.size();
+  requireCount("velocity", spec.velocity, nodes, "nodes");
+  requireCount("displacement", spec.displacement, nodes, "nodes");
+  requireCount("held", spec.held, nodes, "nodes");
+  requireCount("smoothNodes", spec.smoothNodes, nodes, "nodes");
   requireFinite("velocity", spec.velocity);
   requireSlow(spec.velocity);
   requireFinite("displacement", spec.displacement);

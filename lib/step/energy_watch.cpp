@@ -89,15 +89,14 @@ std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
   const double amount = created(step.ledger);
   if (!(amount > std::max(tolerated(reportedCreated), noise))) return {};
   reportedCreated = amount;
-  if (createdByBoth(step.ledger) + std::max(0., -step.ledger.fracture) < amount)
+  if (createdByBoth(step.ledger) + std::max(0., -step.ledger.fracture) < amount) {
+    const bool byContact = contact - step.ledger.contact > friction - step.ledger.friction;
     return fmt::format(
         "{}{} has given {} to {}, where corners jam: only the sum of both in fe.energy is right; "
         "{}.",
-        yadefrag::begin(step),
-        contact - step.ledger.contact > friction - step.ledger.friction ? "contact" : "friction",
-        amountText(exchanged(step.ledger), most),
-        contact - step.ledger.contact > friction - step.ledger.friction ? "friction" : "contact",
-        kShorterStep);
+        yadefrag::begin(step), byContact ? "contact" : "friction",
+        amountText(exchanged(step.ledger), most), byContact ? "friction" : "contact", kShorterStep);
+  }
   const bool byCracks = -step.ledger.fracture > amount / 2;
   const bool bySplits = byCracks && split > amount / 2;
   const char* const cause = bySplits   ? "cracks in bodies with element='smoothed' have"

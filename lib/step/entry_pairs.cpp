@@ -1,4 +1,4 @@
-#include "step/entry_pairs.hpp"
+#include "step/halo_watch.hpp"
 
 #include <algorithm>
 #include <cassert>

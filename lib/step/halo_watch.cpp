@@ -7,7 +7,6 @@
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/step.hpp"
-#include "step/entry_pairs.hpp"
 
 namespace yadefrag {
 

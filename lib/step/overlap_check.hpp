@@ -2,7 +2,10 @@
 // New bodies beside those that are there: whether they overlap, which contact would not detect,
 // since it only prevents new overlaps, and outlines moved onto bodies that they are to touch.
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +14,7 @@
 #include "core/ids.hpp"
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "outline/snap.hpp"
+#include "outline/polygon.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -69,5 +72,20 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
 /// An outline moved onto the present boundaries of all bodies.
 [[nodiscard]] Snapped snapOnBodies(const World& world, const Polygon& polygon,
                                    const SnapRule& rule);
+
+// --- Depth of overlaps between bodies, from their triangles only: a check of contact that is
+// independent of surfaces, slaves and masters. Tips that pass each other overlap without a
+// node of one inside the other. No cost unless it is called.
+
+/// (m) The shortest translation that separates two triangles (counter-clockwise); 0 if they do not
+/// overlap. It is along the normal of one of their sides.
+[[nodiscard]] double overlapOf(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b);
+
+/// (m) The deepest overlap of any two triangles without a common node; at most a triangle's height,
+/// since the triangles are separated one by one.
+[[nodiscard]] double deepestOverlap(const Model& model, int threads = 1);
+/// The same of the triangles with a node that `among` marks, by node.
+[[nodiscard]] double deepestOverlap(const Model& model, std::span<const std::uint8_t> among,
+                                    int threads = 1);
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-#include "step/overlap_depth.hpp"
+#include "step/overlap_check.hpp"
 
 #include <algorithm>
 #include <cmath>

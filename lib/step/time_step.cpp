@@ -2,10 +2,16 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cassert>
 #include <utility>
 
+#include "core/arrays.hpp"
 #include "core/errors.hpp"
+#include "core/tolerances/contact.hpp"
 #include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/step.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -163,6 +169,188 @@ void World::takeBack() {
   stableStep = undo_.stableStep, stableViscosity = undo_.stableViscosity;
   dynamics_.flow().restore(undo_.steepness);
   dynamics_.setSpeedLimit(undo_.speedLimit);
+}
+
+void World::measureFinest() { finest_ = shortestSegment(model, surfaces, model.nodes.reference); }
+
+/// A single body that cannot touch itself needs neither search nor candidates.
+bool World::canTouch() const {
+  const std::vector<ComponentId>& owners = surfaces.component;
+  if (owners.empty()) return false;
+  return model.components[owners.front().value].selfContact || severalBodies_;
+}
+
+HaloWatch::Scene World::searchScene() {
+  return {model,
+          surfaces,
+          contactSettings,
+          finest_,
+          canTouch(),
+          hasRigid(),
+          !fracture.cohesion.edge.empty(),
+          threads,
+          timesIfRequested(),
+          dynamics_,
+          contact};
+}
+
+void World::correctContact(const StepLength& length) {
+  const double most = search.largestMove();
+  const ContactStep now{length,
+                        dynamicsSettings.drag(length),
+                        most,
+                        finest_,
+                        dynamics_.previousPosition(),
+                        threads,
+                        rigidMasses,
+                        contactSettings.constants,
+                        timesIfRequested(),
+                        fracture.cohesion.isPulling() ? &fracture.cohesion : nullptr};
+  undo_.hasCorrected = true;
+  contact.correct(model, surfaces, now);
+  for (const RigidMasses::Member& member : rigidMasses.members)
+    dynamics_.setHeld(member.node, model.nodes.velocity[member.node.value]);
+  search.addCorrection(contact.largestCorrection());
+}
+
+void World::countContactWork(const StepLength& length) {
+  const StageTimer timer(timesIfRequested(), &StageTimes::correction);
+  const std::span<const Vec2> former = dynamics_.previousVelocity();
+  for (const ContactRow& row : contact.rows()) {
+    const Vec2 mean = .5 * (relative(row, former) + relative(row, model.nodes.velocity));
+    ledger.contact -= row.normalForce * dot(mean, row.normal) * length.velocity;
+    ledger.friction -= row.tangentForce * dot(mean, row.tangent()) * length.velocity;
+  }
+}
+
+void World::cohere(const StepLength& length) {
+  if (fracture.cohesion.edge.empty()) return;
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
+  fracture.cohesion.correct(model, fracture.edges, dynamics_.previousPosition(), length,
+                            dynamicsSettings.drag(length));
+}
+
+void World::countFractureWork(const StepLength& length) {
+  if (fracture.cohesion.edge.empty()) return;
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
+  fracture.cohesion.addWork(ledger, model, dynamics_.previousVelocity(), length);
+}
+
+/// Returns true if nodes have split.
+bool World::crack() {
+  if (!fracture.isOn()) return false;
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
+  fracture.cohesion.settle(model, fracture.edges);
+  const bool opened =
+      fracture.crack(model, surfaces, dynamics_.stressed(), {time, lastDt}, split_, threads);
+  fracture.noteStart(time);
+  double gained = fracture.yieldingGain();
+  if (opened) gained += fracture.splitEnergy(model, split_.originals, lastDt);
+  ledger.fracture -= gained;
+  watch.split += gained;
+  if (opened) followSplit();
+  fracture.cohere(model);
+  loads.spread(model, surfaces, fracture);
+  // A step that does not resolve a new law is refused at its begin.
+  for (const EdgeId edge : fracture.weakened())
+    if (!isResolved(model, fracture.edges, edge, lastDt)) stableStep = 0;
+  // A loaded state computes the limits from the present strengths.
+  if (fracture.hasRaised()) updateStressLimits();
+  return opened;
+}
+
+/// For a new body, before other data depend on it.
+void World::openJoints(std::span<const EdgeId> joints) {
+  if (joints.empty()) return;
+  fracture.open(model, surfaces, joints, split_);
+  (void)relink(surfaces, split_.sides);
+}
+
+/// Updates all that is derived from nodes, triangles and the boundary.
+void World::followSplit() {
+  const std::vector<Vec2>& reference = model.nodes.reference;
+  const std::size_t count = model.nodes.size();
+  contact.resize(count);
+  dynamics_.follow(model, split_.changed, split_.originals);
+  (void)relink(surfaces, split_.sides);
+  const auto appear = [&](NodeId node) { search.appear(node, model.nodes.position[node.value]); };
+  for (const NodeId node : split_.onSurface) appear(node);
+  for (std::size_t n = count - split_.originals.size(); n < count; ++n) appear(NodeId(n));
+  for (const SurfaceSide& side : split_.sides)
+    if (side.segment == SegmentId::none())
+      finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
+  search.addCandidatesAround(searchScene(), split_.sides);
+  assert(haveLength(model.nodes.columns(), count) && surfaces.nodeSegment.size() == count);
+}
+
+/// Must be called after the cracks of a step; `split`: nodes have split. Checks only the
+/// surroundings of splits, and everything after a body was added or the area changed.
+void World::dropFragments(bool split) {
+  const double area = fracture.minFragmentArea;
+  if (area <= 0 || !fracture.isOn()) {
+    droppedBelow_ = 0;
+    return;
+  }
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
+  std::vector<ElementId> around;
+  if (droppedBelow_ != area) {
+    for (std::size_t e = 0; e < fracture.edges.ofElement.size(); ++e)
+      if (model.components[model.triangles.component[e].value].brittle.cracks())
+        around.emplace_back(e);
+  } else {
+    for (const EdgeId edge : fracture.cohesion.released)
+      for (const ElementId element : fracture.edges.element[edge.value]) around.push_back(element);
+    if (split) {
+      const std::size_t firstNew = model.nodes.size() - split_.originals.size();
+      for (std::size_t i = 0; i < split_.originals.size(); ++i) {
+        around.push_back(fracture.edges.ofNode[split_.originals[i].value]);
+        around.push_back(fracture.edges.ofNode[firstNew + i]);
+      }
+    }
+  }
+  droppedBelow_ = area;
+  if (around.empty()) return;
+  loose_.find(model, fracture.edges, fracture.cohesion, around, area);
+  if (!loose_.triangles.empty()) takeOut(loose_.triangles);
+}
+
+/// Triangles, nodes and entries keep their numbers. The triangles get their stress-free shape at
+/// rest, so that they never move or crack again.
+void World::takeOut(std::span<const ElementId> triangles) {
+  std::vector<NodeId> nodes;
+  for (const ElementId element : triangles) {
+    const auto& corners = model.triangles.nodes[element.value];
+    nodes.insert(nodes.end(), corners.begin(), corners.end());
+  }
+  sortUnique(nodes);
+
+  dropped.count += loose_.count;
+  ledger.dropped += yadefrag::strainEnergy(model, lastDt, triangles);
+  for (const NodeId node : nodes) {
+    double& mass = model.nodes.mass[node.value];
+    Vec2& velocity = model.nodes.velocity[node.value];
+    dropped.mass += mass;
+    dropped.momentum += mass * velocity;
+    ledger.dropped += mass / 2 * dot(velocity, velocity);
+    mass = 0;
+    velocity = {};
+    if (node.value < reactions.size()) reactions[node.value] = {};
+    model.nodes.position[node.value] = model.nodes.reference[node.value];
+    model.nodes.held[node.value] = kHeldXY;
+  }
+  for (const ElementId element : triangles) {
+    model.triangles.area[element.value] = 0;
+    PlasticState& flowed = model.triangles.plastic;
+    if (flowed.isUsed())
+      flowed.begin(element.value, model.triangles.inverseEdges[element.value],
+                   flowed.temperature[element.value]);
+  }
+  dynamics_.drop(model, nodes);
+  fracture.cohesion.removeDropped(model.triangles, fracture.edges);
+  surfaces.drop(nodes);
+  contact.removeGone(surfaces);
+  search.removeDropped(model);
+  measureFinest();
 }
 
 }  // namespace yadefrag

@@ -7,7 +7,7 @@
 
 #include "core/tolerances/step.hpp"
 #include "dynamics/critical_time_step.hpp"
-#include "step/overlap_depth.hpp"
+#include "step/overlap_check.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {

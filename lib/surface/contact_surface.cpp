@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/arrays.hpp"
-#include "surface/bezier_arc.hpp"
+#include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
 namespace {

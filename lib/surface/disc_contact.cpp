@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "surface/bezier_arc.hpp"
+#include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/relink.hpp"
+#include "surface/contact_surface.hpp"
 
 #include <algorithm>
 #include <cassert>

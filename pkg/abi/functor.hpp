@@ -10,34 +10,34 @@
 namespace yade {
 
 // Second base class, at byte 80, of the functors: the table through which dispatchers call them. It
-// has a slot for every number of arguments from one to seven; only one slot is used. Here for
-// functors with one shape, whose call has four arguments.
-template <class... Arguments>
-class OneShapeCalls {
+// has a slot for every number of arguments from one to seven; only one slot is used.
+class CallTable {
  public:
-  virtual ~OneShapeCalls() = default;
+  virtual ~CallTable() = default;
   virtual string checkOrder() const { return {}; }
 
- private:
-  virtual void go1() { unused(); }
-  virtual void go2() { unused(); }
-  virtual void go3() { unused(); }
+ protected:
+  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
+};
+
+#define YADEFRAG_UNUSED_SLOTS(Result, first, second, third) \
+  virtual Result first() { unused(); }                      \
+  virtual Result second() { unused(); }                     \
+  virtual Result third() { unused(); }
+
+// For functors with one shape, whose call has four arguments.
+template <class... Arguments>
+class OneShapeCalls : public CallTable {
+  YADEFRAG_UNUSED_SLOTS(void, go1, go2, go3)
 
  public:
   virtual void go(Arguments...) { unused(); }
 
  private:
-  virtual void go5() { unused(); }
-  virtual void go6() { unused(); }
-  virtual void go7() { unused(); }
-  virtual void goReverse1() { unused(); }
-  virtual void goReverse2() { unused(); }
-  virtual void goReverse3() { unused(); }
-  virtual void goReverse4() { unused(); }
-  virtual void goReverse5() { unused(); }
-  virtual void goReverse6() { unused(); }
+  YADEFRAG_UNUSED_SLOTS(void, go5, go6, go7)
+  YADEFRAG_UNUSED_SLOTS(void, goReverse1, goReverse2, goReverse3)
+  YADEFRAG_UNUSED_SLOTS(void, goReverse4, goReverse5, goReverse6)
   virtual void goReverse7() { unused(); }
-  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
 };
 
 struct GLViewInfo;
@@ -47,18 +47,9 @@ using BoundCalls =
 using GlShapeCalls =
     OneShapeCalls<const shared_ptr<Shape>&, const shared_ptr<State>&, bool, const GLViewInfo&>;
 
-class GeomCalls {
- public:
-  virtual ~GeomCalls() = default;
-  virtual string checkOrder() const { return {}; }
-
- private:
-  virtual bool go1() { unused(); }
-  virtual bool go2() { unused(); }
-  virtual bool go3() { unused(); }
-  virtual bool go4() { unused(); }
-  virtual bool go5() { unused(); }
-  virtual bool go6() { unused(); }
+class GeomCalls : public CallTable {
+  YADEFRAG_UNUSED_SLOTS(bool, go1, go2, go3)
+  YADEFRAG_UNUSED_SLOTS(bool, go4, go5, go6)
 
  public:
   virtual bool go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&,
@@ -67,12 +58,8 @@ class GeomCalls {
   }
 
  private:
-  virtual bool goReverse1() { unused(); }
-  virtual bool goReverse2() { unused(); }
-  virtual bool goReverse3() { unused(); }
-  virtual bool goReverse4() { unused(); }
-  virtual bool goReverse5() { unused(); }
-  virtual bool goReverse6() { unused(); }
+  YADEFRAG_UNUSED_SLOTS(bool, goReverse1, goReverse2, goReverse3)
+  YADEFRAG_UNUSED_SLOTS(bool, goReverse4, goReverse5, goReverse6)
 
  public:
   virtual bool goReverse(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&,
@@ -80,19 +67,11 @@ class GeomCalls {
                          const shared_ptr<Interaction>&) {
     unused();
   }
-
- private:
-  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
 };
 
 // For functors whose call has three arguments.
 template <class Result, class... Arguments>
-class ThreeArgumentCalls {
- public:
-  virtual ~ThreeArgumentCalls() = default;
-  virtual string checkOrder() const { return {}; }
-
- private:
+class ThreeArgumentCalls : public CallTable {
   virtual Result go1() { unused(); }
   virtual Result go2() { unused(); }
 
@@ -100,19 +79,14 @@ class ThreeArgumentCalls {
   virtual Result go(Arguments...) { unused(); }
 
  private:
-  virtual Result go4() { unused(); }
-  virtual Result go5() { unused(); }
-  virtual Result go6() { unused(); }
-  virtual Result go7() { unused(); }
-  virtual Result goReverse1() { unused(); }
-  virtual Result goReverse2() { unused(); }
-  virtual Result goReverse3() { unused(); }
-  virtual Result goReverse4() { unused(); }
-  virtual Result goReverse5() { unused(); }
+  YADEFRAG_UNUSED_SLOTS(Result, go4, go5, go6)
+  YADEFRAG_UNUSED_SLOTS(Result, go7, goReverse1, goReverse2)
+  YADEFRAG_UNUSED_SLOTS(Result, goReverse3, goReverse4, goReverse5)
   virtual Result goReverse6() { unused(); }
   virtual Result goReverse7() { unused(); }
-  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
 };
+
+#undef YADEFRAG_UNUSED_SLOTS
 
 using PhysCalls = ThreeArgumentCalls<void, const shared_ptr<Material>&, const shared_ptr<Material>&,
                                      const shared_ptr<Interaction>&>;

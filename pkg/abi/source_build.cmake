@@ -22,7 +22,7 @@ message(STATUS "YADE ${found_version} in ${YADE_PREFIX}, with the headers in ${y
 # No table of layouts to compare with; a YADE without a 3D view lacks the base of what draws.
 set(yade_unused_sources ${abi_dir}/layout_checks.cpp)
 if(NOT yade_features MATCHES "QT5")
-  list(APPEND yade_unused_sources ${CMAKE_CURRENT_SOURCE_DIR}/view/gl_surface_segment.cpp)
+  list(APPEND yade_unused_sources ${CMAKE_CURRENT_SOURCE_DIR}/view/body_picture.cpp)
 endif()
 
 # yadefrag_use_yade(options): YADE's headers, which include those of its features' libraries.

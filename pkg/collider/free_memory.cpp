@@ -1,4 +1,4 @@
-#include "collider/free_memory.hpp"
+#include "collider/search_collider.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

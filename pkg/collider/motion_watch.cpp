@@ -1,4 +1,4 @@
-#include "collider/motion_watch.hpp"
+#include "collider/search_collider.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/running.hpp"
-#include "search/periodic_overlap.hpp"
+#include "search/periodic.hpp"
 
 namespace yadefrag {
 

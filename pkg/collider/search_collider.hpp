@@ -3,24 +3,84 @@
 
 #include <fmt/core.h>
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
-#include "collider/free_memory.hpp"
 #include "collider/interaction_update.hpp"
-#include "collider/interval.hpp"
-#include "collider/motion_watch.hpp"
 #include "collider/sphere_reach.hpp"
+#include "collider/sweep_rule.hpp"
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "publish/attribute.hpp"
 #include "search/incremental_search.hpp"
-#include "search/lattice.hpp"
-#include "search/periodic_images.hpp"
+#include "search/periodic.hpp"
 
 namespace yadefrag {
+
+/// YADE's integrator checks the positions if it moves every body. Otherwise (no integrator, a dead
+/// one, one with a mask) they are checked here. Always checked here: rotating bodies, a deforming
+/// cell, and nodes without a bound that grid connections and PFacets follow; the integrator does
+/// not check these.
+class MotionWatch {
+ public:
+  /// Starts the check for bounds that were just updated. `cellSpan`: largest distance of two
+  /// neighbours in cells, per axis.
+  void start(const yade::Scene& scene, const BodyBoxes& boxes, double cellSlack,
+             const yade::Vector3r& cellSpan);
+
+  [[nodiscard]] bool boundsBroken(const yade::Scene& scene) const;
+
+  /// The integrator that moves the scene's bodies; null if there is none or it is dead.
+  static yade::shared_ptr<yade::NewtonIntegrator> findIntegrator(const yade::Scene& scene);
+
+  /// Displacement record of the integrator: 0 if it has moved no body, below 1 within bounds or if
+  /// yade.mpy has searched since, otherwise outside.
+  static double fastestBody(const yade::Scene& scene, const yade::NewtonIntegrator& newton);
+
+ private:
+  [[nodiscard]] bool cellMoved(const yade::Scene& scene) const;
+  [[nodiscard]] bool someTurnedOut(const yade::Scene& scene) const;
+  static bool someMovedOut(const yade::Scene& scene);
+  [[nodiscard]] bool someNodeMovedOut(const yade::Scene& scene) const;
+
+  struct Node {
+    yade::Body::id_t id;
+    yade::Vector3r position;
+  };
+  std::vector<Node> nodes_;
+  double nodeSweep_ = 0;  // m
+  std::vector<Turning> turning_;
+  bool isSplit_ = false;
+  double cellSlack_ = 0;
+  yade::Vector3r cellSpan_ = yade::Vector3r::Zero();
+  yade::Matrix3r cellBefore_ = yade::Matrix3r::Zero();
+};
+
+/// Bytes that this process can still allocate: the machine's free memory, within the limits of the
+/// address space and of the control group.
+double freeMemory();
+
+/// Caches the free memory while the size of the scene is about constant: reading it takes as long
+/// as a search among a thousand bodies.
+class MemoryForPairs {
+ public:
+  /// Number of pairs that fit, including the present interactions.
+  std::size_t most(std::size_t bodies, std::size_t interactions);
+
+  /// Free memory (bytes) when it was last read.
+  [[nodiscard]] double free() const { return free_; }
+
+ private:
+  static constexpr int kSearchesPerLookUp = 100;
+  double free_ = 0;
+  std::size_t interactions_ = 0, bodies_ = 0;  // when it was last read
+  int searches_ = kSearchesPerLookUp;          // searches since then
+};
 
 /// Replaces YADE's InsertionSortCollider. Attributes with the same name have the same meaning;
 /// those that concern its sorting only are accepted and have no effect.

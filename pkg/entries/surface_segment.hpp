@@ -30,7 +30,7 @@ class SurfaceSegment final
   double halo = 0;
   int entry = -1, component = -1;
   bool selfContact = true;
-  /// A contact with a sphere that a crack changed (crack_contacts.hpp). Its law has the overlap
+  /// A contact with a sphere that a crack changed (sphere_contacts.hpp). Its law has the overlap
   /// share · (overlap − tolerated).
   struct Changed {
     yade::Body::id_t sphere;

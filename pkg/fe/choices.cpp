@@ -7,7 +7,7 @@
 
 #include "abi/yade.hpp"
 #include "core/errors.hpp"
-#include "core/tolerances/solver.hpp"
+#include "core/tolerances/contact.hpp"
 #include "publish/value_kind.hpp"
 
 namespace yadefrag {

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "core/checksum.hpp"
 #include "core/errors.hpp"
+#include "core/random_bits.hpp"
 #include "publish/any_archive.hpp"
 #include "step/world.hpp"
 
@@ -119,17 +120,24 @@ class ColumnArchive {
       std::memcpy(static_cast<void*>(column.data()), flat.data(), flat.size() * sizeof(Scalar));
   }
 
-  /// One member of structures with several types of members.
+  /// One member of structures with several types of members: a pointer to it, or a function that
+  /// returns a reference. The elements of a vector of bool cannot be referenced: flags are bytes.
   template <class Element, class Read>
   void member(const char* name, std::vector<Element>& rows, Read read) {
-    using Value = std::remove_cvref_t<decltype(read(rows.front()))>;
+    using Member = std::remove_cvref_t<std::invoke_result_t<Read, Element&>>;
+    using Value = std::conditional_t<std::is_same_v<Member, bool>, std::uint8_t, Member>;
     std::vector<Value> flat(rows.size());
-    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]);
+    for (std::size_t i = 0; i < flat.size(); ++i)
+      flat[i] = static_cast<Value>(std::invoke(read, rows[i]));
     value(name, flat);
     // The first member determines the number of rows.
     if (rows.empty()) rows.resize(flat.size());
     if (rows.size() != flat.size()) refuse(std::string(name) + " has a wrong length");
-    for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
+    for (std::size_t i = 0; i < flat.size(); ++i)
+      if constexpr (std::is_same_v<Member, bool>)
+        std::invoke(read, rows[i]) = flat[i] != 0;
+      else
+        std::invoke(read, rows[i]) = flat[i];
   }
 
   /// The columns of a table (core/columns.hpp).
@@ -175,16 +183,6 @@ class ColumnArchive {
     }
   }
 
-  /// For existing rows: the elements of a vector of bool cannot be referenced.
-  template <class Element, class Read>
-  void flags(const char* name, std::vector<Element>& rows, Read read) {
-    std::vector<std::uint8_t> flat(rows.size());
-    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]) ? 1 : 0;
-    value(name, flat);
-    if (flat.size() != rows.size()) refuse(std::string(name) + " has a wrong length");
-    for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i] != 0;
-  }
-
   void table(const char* name, TimeTable& table) {
     std::vector<double> times = table.times(), values = table.values();
     value(name, times), value(name, values);
@@ -199,5 +197,16 @@ class ColumnArchive {
   AnyArchive& archive_;
   Checksum sum_;
 };
+
+// --- Saves and loads the complete state of a world in YADE's archives, as columns of plain
+// numbers. The run continues with the same bits from binary files and from XML, which contains all
+// digits of a number. Damaged data are refused: a checksum covers all values, and every index is
+// checked before use. How a column is stored: column_archive.hpp.
+
+/// `entryBodies`: YADE's body id of each entry; `forces` (N, by node): of contact in the last step.
+/// Throws InputError for data that are damaged or of another version, RunError if they cannot be
+/// written.
+void archiveWorld(AnyArchive& archive, World& world, std::vector<int>& entryBodies,
+                  std::vector<Vec2>& forces);
 
 }  // namespace yadefrag

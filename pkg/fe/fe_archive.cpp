@@ -1,4 +1,4 @@
-#include "fe/fe_archive.hpp"
+#include "fe/column_archive.hpp"
 
 #include <boost/archive/archive_exception.hpp>
 
@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "fe/column_archive.hpp"
 #include "mesh/material_constants.hpp"
 #include "step/world.hpp"
 
@@ -14,10 +13,11 @@ namespace yadefrag {
 namespace {
 
 /// With the checksum a fuzzer would never reach the code behind it.
+constexpr bool kIgnoreChecksum =
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-inline constexpr bool kIgnoreChecksum = true;
+    true;
 #else
-inline constexpr bool kIgnoreChecksum = false;
+    false;
 #endif
 
 class WorldArchive : ColumnArchive {
@@ -75,8 +75,7 @@ class WorldArchive : ColumnArchive {
     value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
     value("fractureWork", ledger.fracture), value("dampingEnergy", ledger.damping);
     value("externalEnergy", ledger.external), value("droppedEnergy", ledger.dropped);
-    value("createdSpin", ledger.spin);
-    value("plasticEnergy", ledger.plastic);
+    value("createdSpin", ledger.spin), value("plasticEnergy", ledger.plastic);
     Dropped& dropped = world.dropped;
     value("droppedMass", dropped.mass), value("dropped", dropped.count);
     value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
@@ -94,8 +93,7 @@ class WorldArchive : ColumnArchive {
   void watch(World& world) {
     EnergyWatch& watch = world.watch;
     value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
-    value("mostEnergy", watch.most);
-    value("watchedContact", watch.dissipated);
+    value("mostEnergy", watch.most), value("watchedContact", watch.dissipated);
     value("mostContact", watch.contact), value("mostFriction", watch.friction);
     value("watchedSplit", watch.split);
     value("lookedCreated", watch.evaluatedCreated), value("lookedGrown", watch.evaluatedGrown);
@@ -111,21 +109,19 @@ class WorldArchive : ColumnArchive {
   void motions(std::vector<Motion>& motions) {
     FlatMotions flat = flatten(motions);
     value("motionCounts", flat.counts), value("motionNumbers", flat.numbers);
-    if (isLoading())
-      if (!unflatten(flat, motions)) refuse("its motions are invalid");
+    if (isLoading() && !unflatten(flat, motions)) refuse("its motions are invalid");
   }
 
   void components(std::vector<Component>& rows) {
     using C = Component;
     materials(rows);
-    member("thickness", rows, [](C& c) -> double& { return c.thickness; });
-    member("firstTriangle", rows, [](C& c) -> std::uint32_t& { return c.firstTriangle; });
-    member("lastTriangle", rows, [](C& c) -> std::uint32_t& { return c.lastTriangle; });
-    member("firstMaterial", rows, [](C& c) -> std::uint32_t& { return c.firstMaterial; });
-    member("lastMaterial", rows, [](C& c) -> std::uint32_t& { return c.lastMaterial; });
-    flags("brittleByPlace", rows, [](C& c) -> bool& { return c.brittleByPlace; });
-    flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
-    flags("rigid", rows, [](C& c) -> bool& { return c.rigid; });
+    member("thickness", rows, &C::thickness);
+    member("firstTriangle", rows, &C::firstTriangle),
+        member("lastTriangle", rows, &C::lastTriangle);
+    member("firstMaterial", rows, &C::firstMaterial),
+        member("lastMaterial", rows, &C::lastMaterial);
+    member("brittleByPlace", rows, &C::brittleByPlace);
+    member("selfContact", rows, &C::selfContact), member("rigid", rows, &C::rigid);
     member("element", rows, [](C& c) -> std::uint8_t& {
       return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
     });
@@ -145,8 +141,8 @@ class WorldArchive : ColumnArchive {
         member(one.name, rows, [&](C& c) -> double& { return part(c).*one.member; });
     };
     constants(elasticConstants(), [](C& c) -> ElasticMaterial& { return c.material; });
-    flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
-    member("friction", rows, [](C& c) -> double& { return c.friction; });
+    member("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
+    member("friction", rows, &C::friction);
     constants(brittleConstants(), [](C& c) -> BrittleMaterial& { return c.brittle; });
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     curves("softeningCounts", "softeningPoints", rows,
@@ -172,8 +168,7 @@ class WorldArchive : ColumnArchive {
     world.loads.pressures.resize(count);
     for (Pressure& one : world.loads.pressures) {
       column("pressureSegments", one.segments);
-      value("pressureFunction", one.function);
-      value("pressureFirstNew", one.firstNew);
+      value("pressureFunction", one.function), value("pressureFirstNew", one.firstNew);
       table("pressure", one.value);
     }
     column("absorbing", world.loads.absorbing.segments);
@@ -187,9 +182,9 @@ class WorldArchive : ColumnArchive {
     auto& rows = contact.touches;
     member("touchSlave", rows, [](Touch& t) -> Index& { return t.pair.slave.value; });
     member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
-    member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
-    member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
-    member("touchAllowed", rows, [](Touch& t) -> double& { return t.toleratedGap; });
+    member("touchNormal", rows, &Touch::normalForce);
+    member("touchTangent", rows, &Touch::tangentForce);
+    member("touchAllowed", rows, &Touch::toleratedGap);
   }
 
   void search(World& world) {
@@ -201,11 +196,9 @@ class WorldArchive : ColumnArchive {
       using enum SearchState::Validity;
       search.validity = isVoid ? kVoid : isDue ? kDue : kValid;
     }
-    column("searchNodes", search.nodes);
-    column("searchPositions", search.positions);
+    column("searchNodes", search.nodes), column("searchPositions", search.positions);
     SearchBounds bounds = world.searchBounds();
-    value("searchFarthest", bounds.farthest);
-    value("searchSpeed", bounds.speed);
+    value("searchFarthest", bounds.farthest), value("searchSpeed", bounds.speed);
     if (isLoading()) search.loaded = bounds;
   }
 
@@ -216,7 +209,7 @@ class WorldArchive : ColumnArchive {
     value("crackStart", fracture.started);
     auto& overloads = fracture.overloads;
     member("overloadEdge", overloads, [](Overload& o) -> Index& { return o.edge.value; });
-    member("overloadSince", overloads, [](Overload& o) -> double& { return o.since; });
+    member("overloadSince", overloads, &Overload::since);
     column("elementEdges", edges.ofElement), column("nodeElement", edges.ofNode);
     table(fracture.cohesion.columns());
     std::uint64_t numCracks = fracture.numCracks();

@@ -9,11 +9,10 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/spheres.hpp"
-#include "dynamics/yielding_state.hpp"
+#include "dynamics/element_state.hpp"
 #include "entries/sphere_overlap.hpp"
 #include "fe/fe_solver.hpp"
 #include "fracture/brittle_checks.hpp"
-#include "fracture/coarse_mesh.hpp"
 
 namespace yadefrag {
 

@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "abi/helpers.hpp"
+#include "core/tolerances/contact.hpp"
 #include "core/tolerances/dynamics.hpp"
-#include "core/tolerances/solver.hpp"
 #include "core/tolerances/step.hpp"
-#include "fe/fe_archive.hpp"
+#include "fe/column_archive.hpp"
 #include "fe/fe_solver.hpp"
 
 namespace yadefrag {

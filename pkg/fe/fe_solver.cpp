@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/tolerances/plasticity.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
 #include "entries/sphere_overlap.hpp"

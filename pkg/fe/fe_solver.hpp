@@ -1,26 +1,66 @@
 #pragma once
 // The engine for finite-element bodies.
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "abi/yade.hpp"
-#include "entries/crack_contacts.hpp"
 #include "entries/entry_bodies.hpp"
-#include "entries/rolling.hpp"
-#include "fe/engine_order.hpp"
+#include "entries/sphere_contacts.hpp"
 #include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
 #include "publish/published.hpp"
 #include "publish/step_lock.hpp"
 #include "rigid/rigid_bodies.hpp"
-#include "script/definitions.hpp"
-#include "script/script_functions.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
+
+// --- What pkg/script adds to Python: each function is defined in the file of its subject.
+
+class FESolver;
+using SolverClass = yade::py::class_<FESolver, boost::shared_ptr<FESolver>,
+                                     yade::py::bases<yade::GlobalEngine>, boost::noncopyable>;
+
+// In the module _yadefrag.
+void defineBodyParts();
+void defineMeshes();
+
+// In FESolver; addPolygon and others are written in Python (python/yadefrag/fe/solver.py).
+void defineArrays(SolverClass& solver);
+void defineBodies(SolverClass& solver);
+void defineMotions(SolverClass& solver);
+void defineQuality(SolverClass& solver);
+void defineResults(SolverClass& solver);
+
+/// Functions of a script that the steps call. They are Python objects, and are not saved to files.
+class ScriptFunctions {
+ public:
+  ScriptFunctions() = default;
+  ~ScriptFunctions();
+  ScriptFunctions(const ScriptFunctions&) = delete;
+  ScriptFunctions& operator=(const ScriptFunctions&) = delete;
+
+  /// Returns the function's number, which is never 0. Requires Python's lock, as `keep` does.
+  std::uint32_t add(const yade::py::object& function);
+  /// Removes functions that are not used in the world.
+  void keep(const World& world);
+
+  /// Calls the functions of motions and pressures for the next step of `dt` (s): (positions of the
+  /// nodes, middle of the step in s) → bytes of a velocity (m/s) for each; time (s) → Pa. Does
+  /// nothing if there are none or one is missing. Throws std::runtime_error with the message of a
+  /// function's exception.
+  void giveValues(World& world, double dt) const;
+
+ private:
+  void giveVelocities(World& world, double dt) const;
+  void givePressures(World& world) const;
+
+  std::map<std::uint32_t, yade::py::object> functions_;
+};
 
 struct AddedBody {
   int component;

@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "abi/yade.hpp"
-#include "script/with_gil.hpp"
-#include "script/without_gil.hpp"
+#include "publish/gil.hpp"
 
 namespace yadefrag {
 namespace {
@@ -127,7 +126,7 @@ void noteStop(const char* why) {
   }
   const WithGil gil;
   try {
-    yade::py::import("yadefrag.scene.refusals").attr("silence")();
+    yade::py::import("yadefrag.scene.lifecycle").attr("silenceRefusal")();
   } catch (const yade::py::error_already_set&) {
     PyErr_Clear();  // YADE's lines are then written, too
   }

@@ -14,7 +14,6 @@
 #include "abi/yade.hpp"
 #include "entries/entry_bodies.hpp"
 #include "entries/node_forces.hpp"
-#include "fe/given_forces.hpp"
 #include "publish/any_archive.hpp"
 
 namespace yadefrag {

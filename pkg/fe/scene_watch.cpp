@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
-#include "script/with_gil.hpp"
+#include "publish/gil.hpp"
 
 namespace yadefrag {
 
@@ -81,6 +83,105 @@ std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity, bo
     PyErr_Clear();  // a failed warning must not stop a run
   }
   return result;
+}
+
+namespace {
+
+constexpr const char* kOrder =
+    "; the order is ForceResetter, collider, InteractionLoop, FESolver, NewtonIntegrator.";
+
+using Engines = std::vector<const yade::Engine*>;
+
+/// Also true for engines that are derived from one: CurveLoop is an InteractionLoop.
+template <class Kind>
+bool isA(const yade::Engine* engine) {
+  return dynamic_cast<const Kind*>(engine) != nullptr;
+}
+bool resetsForces(const yade::Engine* engine) { return engine->getClassName() == "ForceResetter"; }
+
+/// Engines run in a cycle: after the engine at `from`, which adds forces to bodies, `user` must run
+/// before a reset of forces.
+void requireForces(const Engines& engines, std::size_t from, const yade::Engine* user) {
+  for (std::size_t i = 1; i < engines.size(); ++i) {
+    const yade::Engine* const next = engines[(from + i) % engines.size()];
+    if (next == user) return;
+    if (resetsForces(next))
+      throw std::invalid_argument("O.engines: ForceResetter deletes the forces of " +
+                                  engines[from]->getClassName() + " before " +
+                                  user->getClassName() + " has used them" + kOrder);
+  }
+}
+
+/// True if NewtonIntegrator uses the forces of the engine at `from` before `solver`.
+bool movesBefore(const Engines& engines, std::size_t from, const yade::Engine& solver) {
+  for (std::size_t i = 1; i < engines.size(); ++i) {
+    const yade::Engine* const next = engines[(from + i) % engines.size()];
+    if (next == &solver) return false;
+    if (isA<yade::NewtonIntegrator>(next)) return true;
+  }
+  return false;
+}
+
+Engines aliveIn(const yade::Scene& scene) {
+  Engines alive;
+  for (const auto& engine : scene.engines)
+    if (!engine->dead) alive.push_back(engine.get());
+  return alive;
+}
+
+}  // namespace
+
+void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& solver,
+                                bool anyMovable) {
+  const Engines alive = aliveIn(scene);
+  const auto own = std::ranges::find(alive, &solver);
+  if (own == alive.end()) return;
+  for (auto behind = own; behind != alive.end(); ++behind)
+    if (resetsForces(*behind))
+      throw std::invalid_argument(
+          std::string("O.engines: ForceResetter behind FESolver deletes the forces of contact on "
+                      "walls, boxes and facets within the step, so that O.forces would show none") +
+          kOrder);
+  if (!anyMovable) return;
+  for (const yade::Engine* user : alive) {
+    if (!isA<yade::NewtonIntegrator>(user)) continue;
+    if (std::ranges::none_of(alive, resetsForces))
+      throw std::invalid_argument(
+          std::string("O.engines has a NewtonIntegrator and no ForceResetter: the forces on clumps "
+                      "of all steps would add up") +
+          kOrder);
+    requireForces(alive, static_cast<std::size_t>(own - alive.begin()), user);
+  }
+}
+
+bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) {
+  std::vector<Item> items;
+  for (const auto& engine : scene.engines) {
+    const yade::Engine& one = *engine;
+    items.push_back({&typeid(one), &one == &solver, one.dead});
+  }
+  if (items == checked_) return false;
+  checked_.clear();
+  const Engines alive = aliveIn(scene);
+  const auto count = std::count(alive.begin(), alive.end(), &solver);
+  if (count > 1)
+    throw std::invalid_argument(
+        "O.engines has the same FESolver more than once; it must be there once.");
+  bool moveFirst = false;
+  for (std::size_t i = 0; i < alive.size() && count == 1; ++i) {
+    if (!isA<yade::InteractionLoop>(alive[i])) continue;
+    if (std::ranges::none_of(alive, resetsForces))
+      throw std::invalid_argument(
+          std::string("O.engines has an InteractionLoop and no ForceResetter: the forces of all "
+                      "steps would add up") +
+          kOrder);
+    for (const yade::Engine* user : alive)
+      if (user == &solver || isA<yade::NewtonIntegrator>(user)) requireForces(alive, i, user);
+    moveFirst = moveFirst || movesBefore(alive, i, solver);
+  }
+  spheresMoveFirst_ = moveFirst;
+  checked_.swap(items);
+  return true;
 }
 
 }  // namespace yadefrag

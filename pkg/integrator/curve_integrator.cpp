@@ -8,7 +8,7 @@
 #include <typeinfo>
 
 #include "abi/helpers.hpp"
-#include "core/instruction_set.hpp"
+#include "core/lanes.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 #include "fe/running.hpp"

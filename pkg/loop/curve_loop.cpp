@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "abi/helpers.hpp"
-#include "core/instruction_set.hpp"
+#include "core/lanes.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 #include "fe/running.hpp"

@@ -1,26 +1,15 @@
 #include "publish/step_lock.hpp"
 
-#include "script/without_gil.hpp"
+#include "publish/gil.hpp"
 
 namespace yadefrag {
 
 void StepLock::lock() {
-  const std::thread::id self = std::this_thread::get_id();
-  std::uint64_t ticket = 0;
-  {
-    const std::lock_guard guard(mutex_);
-    if (owner_ == self) {
-      ++depth_;
-      return;
-    }
-    ticket = given_++;
-    if (ticket == served_) {
-      owner_ = self, depth_ = 1;
-      return;
-    }
-  }
+  if (try_lock()) return;
   const WithoutGil free;
-  wait(ticket);
+  std::unique_lock guard(mutex_);
+  turn_.wait(guard, [&, ticket = given_++] { return ticket == served_; });
+  owner_ = std::this_thread::get_id(), depth_ = 1;
 }
 
 bool StepLock::try_lock() {
@@ -34,12 +23,6 @@ bool StepLock::try_lock() {
   ++given_;
   owner_ = self, depth_ = 1;
   return true;
-}
-
-void StepLock::wait(std::uint64_t ticket) {
-  std::unique_lock guard(mutex_);
-  turn_.wait(guard, [&] { return ticket == served_; });
-  owner_ = std::this_thread::get_id(), depth_ = 1;
 }
 
 void StepLock::unlock() {

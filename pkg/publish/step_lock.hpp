@@ -19,8 +19,6 @@ class StepLock {
   bool try_lock();
 
  private:
-  void wait(std::uint64_t ticket);
-
   std::mutex mutex_;  // protects the following members
   std::condition_variable turn_;
   std::uint64_t given_ = 0;   // tickets so far

@@ -3,7 +3,7 @@
 // module is lost, so that this is not done there.)
 
 #include "collider/colliders.hpp"
-#include "core/instruction_set.hpp"
+#include "core/lanes.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
@@ -11,9 +11,8 @@
 #include "integrator/curve_integrator.hpp"
 #include "loop/curve_loop.hpp"
 #include "publish/publish.hpp"
-#include "script/definitions.hpp"
 #ifdef YADE_OPENGL
-#include "view/gl_surface_segment.hpp"
+#include "view/body_picture.hpp"
 #endif
 
 #include <boost/python.hpp>

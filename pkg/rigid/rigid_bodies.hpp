@@ -16,11 +16,10 @@
 #include <boost/serialization/vector.hpp>
 
 #include "abi/yade.hpp"
-#include "core/step_length.hpp"
+#include "core/step_times.hpp"
 #include "entries/entry_bodies.hpp"
-#include "fe/given_forces.hpp"
+#include "entries/node_forces.hpp"
 #include "publish/any_archive.hpp"
-#include "rigid/rigid_corners.hpp"
 #include "rigid/rigid_movers.hpp"
 #include "rigid/rigid_outlines.hpp"
 #include "step/world.hpp"

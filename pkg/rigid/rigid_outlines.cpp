@@ -6,7 +6,7 @@
 
 #include "abi/helpers.hpp"
 #include "core/tolerances/collider.hpp"
-#include "outline/convex_hull.hpp"
+#include "outline/polygon.hpp"
 
 namespace yadefrag {
 namespace {

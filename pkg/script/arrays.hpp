@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -39,8 +41,18 @@ struct ArrayKind<std::array<Part, n>> {
 };
 
 /// A new, writable NumPy array of `rows` rows and, unless it is 0, `columns` columns.
-yade::py::object newArray(const void* data, std::size_t bytes, const char* type, std::size_t rows,
-                          int columns);
+inline yade::py::object newArray(const void* data, std::size_t bytes, const char* type,
+                                 std::size_t rows, int columns) {
+  const yade::py::object shape =
+      columns > 0 ? yade::py::object(yade::py::make_tuple(rows, columns)) : yade::py::object(rows);
+  yade::py::object array = yade::py::import("numpy").attr("empty")(shape, type);
+  Py_buffer view;
+  if (PyObject_GetBuffer(array.ptr(), &view, PyBUF_CONTIG) != 0)
+    yade::py::throw_error_already_set();
+  if (bytes > 0) std::memcpy(view.buf, data, bytes);
+  PyBuffer_Release(&view);
+  return array;
+}
 
 template <class Element>
 yade::py::object toArray(const std::vector<Element>& column) {
@@ -60,7 +72,18 @@ yade::py::list toArrays(const std::vector<std::vector<Element>>& columns) {
 class ArrayMemory {
  public:
   /// Throws std::invalid_argument unless it is empty or has rows of `columns` numbers.
-  ArrayMemory(const yade::py::object& array, const char* type, int columns);
+  ArrayMemory(const yade::py::object& array, const char* type, int columns) {
+    // The view keeps the converted array alive.
+    const yade::py::object same = yade::py::import("numpy").attr("ascontiguousarray")(array, type);
+    if (PyObject_GetBuffer(same.ptr(), &view_, PyBUF_ND) != 0) yade::py::throw_error_already_set();
+    const bool isRight =
+        columns > 0 ? view_.ndim == 2 && view_.shape[1] == columns : view_.ndim == 1;
+    if (isRight || view_.len == 0) return;
+    PyBuffer_Release(&view_);
+    throw std::invalid_argument("An array has " + std::to_string(view_.ndim) +
+                                " dimensions or rows of a wrong length; rows must have " +
+                                std::to_string(columns > 0 ? columns : 1) + " numbers.");
+  }
   ~ArrayMemory() { PyBuffer_Release(&view_); }
   ArrayMemory(const ArrayMemory&) = delete;
   ArrayMemory& operator=(const ArrayMemory&) = delete;
@@ -91,19 +114,26 @@ std::vector<std::vector<Element>> fromArrays(const yade::py::list& arrays) {
   return columns;
 }
 
-inline void setAttributes(const yade::py::object& /*object*/) {}
+inline void fill(yade::py::dict& /*dict*/) {}
 template <class Value, class... Rest>
-void setAttributes(yade::py::object& object, const char* name, const Value& value,
-                   const Rest&... rest) {
-  object.attr(name) = value;
-  setAttributes(object, rest...);
+void fill(yade::py::dict& dict, const char* name, const Value& value, const Rest&... rest) {
+  dict[name] = value;
+  fill(dict, rest...);
+}
+
+/// `dictOf("name", value, ...)`
+template <class... Rest>
+yade::py::dict dictOf(const Rest&... namesAndValues) {
+  yade::py::dict dict;
+  fill(dict, namesAndValues...);
+  return dict;
 }
 
 /// An object for Python with these attributes: `record("name", value, ...)`.
 template <class... Rest>
 yade::py::object record(const Rest&... namesAndValues) {
   yade::py::object object = yade::py::import("types").attr("SimpleNamespace")();
-  setAttributes(object, namesAndValues...);
+  object.attr("__dict__").attr("update")(dictOf(namesAndValues...));
   return object;
 }
 

@@ -1,10 +1,9 @@
 #include "dynamics/element_state.hpp"
+#include "fe/fe_solver.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
-#include "script/definitions.hpp"
 #include "script/fragments.hpp"
-#include "script/shown_nodes.hpp"
 
 namespace yadefrag {
 

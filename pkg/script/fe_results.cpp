@@ -1,19 +1,87 @@
+#include "script/fragments.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "core/disjoint_sets.hpp"
+#include "fe/fe_solver.hpp"
 #include "fracture/cohesive_law.hpp"
-#include "fracture/edge_material.hpp"
+#include "fracture/edge_strength.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
-#include "script/definitions.hpp"
-#include "script/fragments.hpp"
-#include "script/shown_nodes.hpp"
-#include "step/overlap_depth.hpp"
+#include "step/overlap_check.hpp"
 
 namespace yadefrag {
+
+namespace {
+
+void joinHeld(const Model& model, const Fracture& fracture, DisjointSets& sets) {
+  for (const EdgeId edge : fracture.cohesion.edge)
+    sets.join(firstNode(model, fracture.edges.side(edge, 0)).value,
+              firstNode(model, fracture.edges.side(edge, 1)).value);
+}
+
+/// Computes all properties that follow from the nodes, after their fragments are known.
+template <class ForNodes>
+void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment>& fragments) {
+  forNodes([&](Fragment& f, std::size_t i) {
+    f.mass += nodes.mass[i];
+    f.centroid += nodes.mass[i] * nodes.position[i];
+    f.velocity += nodes.mass[i] * nodes.velocity[i];
+  });
+  for (Fragment& f : fragments) f.centroid *= 1 / f.mass, f.velocity *= 1 / f.mass;
+  std::vector<double> inertia(fragments.size());
+  forNodes([&](Fragment& f, std::size_t i) {
+    const Vec2 arm = nodes.position[i] - f.centroid;
+    f.spin += nodes.mass[i] * cross(arm, nodes.velocity[i] - f.velocity);
+    inertia[static_cast<std::size_t>(&f - fragments.data())] += nodes.mass[i] * dot(arm, arm);
+  });
+  for (std::size_t i = 0; i < fragments.size(); ++i) fragments[i].spin /= inertia[i];
+}
+
+}  // namespace
+
+std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_t>* ofTriangle,
+                                    const Fracture* holding) {
+  const Nodes& nodes = model.nodes;
+  DisjointSets sets(nodes.size());
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    if (model.triangles.isDropped(t)) continue;
+    const auto& [a, b, c] = model.triangles.nodes[t];
+    sets.join(a.value, b.value);
+    sets.join(a.value, c.value);
+  }
+  if (holding) joinHeld(model, *holding, sets);
+  std::vector<Fragment> fragments;
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> number(nodes.size(), none);
+  if (ofTriangle) ofTriangle->assign(model.triangles.size(), none);
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    if (model.triangles.isDropped(t)) continue;
+    const auto& [a, b, c] = model.triangles.nodes[t];
+    std::uint32_t& index = number[sets.find(a.value)];
+    if (index == none) {
+      index = static_cast<std::uint32_t>(fragments.size());
+      fragments.emplace_back().component = model.triangles.component[t];
+    }
+    const Vec2 at = nodes.position[a.value];
+    Fragment& fragment = fragments[index];
+    ++fragment.triangles;
+    fragment.area += .5 * cross(nodes.position[b.value] - at, nodes.position[c.value] - at);
+    if (ofTriangle) (*ofTriangle)[t] = index;
+  }
+  const auto forNodes = [&](const auto& work) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::uint32_t index = number[sets.find(static_cast<std::uint32_t>(i))];
+      if (index != none) work(fragments[index], i);
+    }
+  };
+  sumNodes(nodes, forNodes, fragments);
+  return fragments;
+}
 
 namespace py = yade::py;
 
@@ -109,43 +177,29 @@ py::dict cracksOf(const FESolver& solver) {
   const ShownNodes shown(world);
   for (auto& ends : columns.nodes)
     for (NodeId& node : ends) node = shown.number(node);
-  py::dict table;
-  table["component"] = toArray(columns.component);
-  table["other"] = toArray(columns.other);
-  table["triangle"] = toArray(columns.triangle);
-  table["nodes"] = toArray(columns.nodes);
-  table["x"] = toArray(columns.x), table["y"] = toArray(columns.y);
-  table["nx"] = toArray(columns.nx), table["ny"] = toArray(columns.ny);
-  table["opening"] = toArray(columns.opening);
-  table["slip"] = toArray(columns.slip);
-  table["damage"] = toArray(columns.damage);
-  table["held"] = toArray(columns.held).attr("view")("bool");
-  table["start"] = toArray(columns.start);
-  table["strength"] = toArray(columns.strength);
-  table["energy"] = toArray(columns.energy);
-  return table;
+  const CrackColumns& c = columns;
+  return dictOf("component", toArray(c.component), "other", toArray(c.other), "triangle",
+                toArray(c.triangle), "nodes", toArray(c.nodes), "x", toArray(c.x), "y",
+                toArray(c.y), "nx", toArray(c.nx), "ny", toArray(c.ny), "opening",
+                toArray(c.opening), "slip", toArray(c.slip), "damage", toArray(c.damage), "held",
+                toArray(c.held).attr("view")("bool"), "start", toArray(c.start), "strength",
+                toArray(c.strength), "energy", toArray(c.energy));
 }
 
 py::dict energyOf(const FESolver& solver) {
   const World& world = solver.world();
   const EnergyLedger& ledger = world.ledger;
-  const double kinetic = world.kineticEnergy();
-  const double strain = world.strainEnergy();
-  py::dict result;
-  result["kinetic"] = kinetic;
-  result["strain"] = strain;
-  result["contact"] = ledger.contact;
-  result["friction"] = ledger.friction;
-  result["fracture"] = ledger.fracture;
+  const double kinetic = world.kineticEnergy(), strain = world.strainEnergy();
   const double pending = world.pendingPlastic();
+  const double total = ledger.total(kinetic, strain) + pending;
+  py::dict result = dictOf("kinetic", kinetic, "strain", strain, "contact", ledger.contact,
+                           "friction", ledger.friction, "fracture", ledger.fracture);
   if (world.model.triangles.plastic.isUsed()) result["plastic"] = ledger.plastic + pending;
   result["damping"] = ledger.damping;
-  if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
+  if (world.dropped.count > 0 || world.fracture.minFragmentArea > 0)
     result["dropped"] = ledger.dropped;
-  result["outside"] = -ledger.external;
-  result["total"] = ledger.total(kinetic, strain) + pending;
-  if (solver.balance().any())
-    result["scene"] = ledger.total(kinetic, strain) + pending + solver.balance().created();
+  fill(result, "outside", -ledger.external, "total", total);
+  if (solver.balance().any()) result["scene"] = total + solver.balance().created();
   return result;
 }
 
@@ -166,14 +220,10 @@ py::list warningsOf(const FESolver& solver) {
 }
 
 py::dict droppedOf(const FESolver& solver) {
-  const World& world = solver.world();
-  const Dropped& dropped = world.dropped;
-  py::dict result;
-  result["mass"] = dropped.mass;
-  result["momentum"] = py::make_tuple(dropped.momentum.x, dropped.momentum.y);
-  result["energy"] = world.ledger.dropped;
-  result["count"] = dropped.count;
-  return result;
+  const Dropped& dropped = solver.world().dropped;
+  return dictOf("mass", dropped.mass, "momentum",
+                py::make_tuple(dropped.momentum.x, dropped.momentum.y), "energy",
+                solver.world().ledger.dropped, "count", dropped.count);
 }
 
 py::list fragmentsOf(const FESolver& solver, bool held) {
@@ -181,15 +231,11 @@ py::list fragmentsOf(const FESolver& solver, bool held) {
   py::list result;
   for (const Fragment& fragment :
        findFragments(world.model, nullptr, held ? &world.fracture : nullptr)) {
-    py::dict one;
-    one["component"] = fragment.component.value;
-    one["triangles"] = fragment.triangles;
-    one["mass"] = fragment.mass;
-    one["area"] = fragment.area;
-    one["centroid"] = py::make_tuple(fragment.centroid.x, fragment.centroid.y);
-    one["velocity"] = py::make_tuple(fragment.velocity.x, fragment.velocity.y);
-    one["spin"] = fragment.spin;
-    result.append(one);
+    const Vec2 centre = fragment.centroid, velocity = fragment.velocity;
+    result.append(dictOf("component", fragment.component.value, "triangles", fragment.triangles,
+                         "mass", fragment.mass, "area", fragment.area, "centroid",
+                         py::make_tuple(centre.x, centre.y), "velocity",
+                         py::make_tuple(velocity.x, velocity.y), "spin", fragment.spin));
   }
   return result;
 }

@@ -1,4 +1,4 @@
-#include "script/mesh_python.hpp"
+#include "script/calls.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -7,13 +7,12 @@
 #include <limits>
 
 #include "dynamics/critical_time_step.hpp"
-#include "meshing/structured.hpp"
+#include "fe/fe_solver.hpp"
 #include "meshing/triangle_quality.hpp"
+#include "meshing/triangulate.hpp"
 #include "outline/polygon.hpp"
 #include "rigid/rigid_outlines.hpp"
 #include "script/arrays.hpp"
-#include "script/calls.hpp"
-#include "script/definitions.hpp"
 
 namespace yadefrag {
 
@@ -56,15 +55,11 @@ SharedMesh meshOf(const py::object& nodes, const py::object& triangles, const py
 /// An array over the mesh's own memory, which it keeps alive.
 py::object nodesInPlace(const py::object& self) {
   std::vector<Vec2>& nodes = py::extract<ScriptMesh&>(self)().nodes;
-  py::dict interface;
-  interface["version"] = 3;
-  interface["typestr"] = "<f8";
-  interface["shape"] = py::make_tuple(nodes.size(), 2);
-  interface["data"] = py::make_tuple(reinterpret_cast<std::uintptr_t>(nodes.data()), false);
-  py::object holder = py::import("types").attr("SimpleNamespace")();
-  holder.attr("mesh") = self;
-  holder.attr("__array_interface__") = interface;
-  return py::import("numpy").attr("asarray")(holder);
+  const py::dict interface =
+      dictOf("version", 3, "typestr", "<f8", "shape", py::make_tuple(nodes.size(), 2), "data",
+             py::make_tuple(reinterpret_cast<std::uintptr_t>(nodes.data()), false));
+  return py::import("numpy").attr("asarray")(
+      record("mesh", self, "__array_interface__", interface));
 }
 
 /// Keeps the memory, of which there may be arrays.
@@ -115,13 +110,10 @@ py::dict meshQualityOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   const Component& body = world.model.components[component];
   const TriangleMesh mesh = stressFreeMesh(world.model, ComponentId(component));
-  py::dict result;
-  result["numTriangles"] = mesh.triangles.size();
-  result["size"] = latticeSide(mesh);
-  result["shortestEdge"] = shortestEdge(mesh);
-  result["minAngle"] = minAngle(mesh.nodes, mesh.triangles);
-  result["timeStepRatio"] = meshTimeStep(mesh, body) / latticeTimeStep(body, latticeSide(mesh));
-  return result;
+  const double side = latticeSide(mesh);
+  return dictOf("numTriangles", mesh.triangles.size(), "size", side, "shortestEdge",
+                shortestEdge(mesh), "minAngle", minAngle(mesh.nodes, mesh.triangles),
+                "timeStepRatio", meshTimeStep(mesh, body) / latticeTimeStep(body, side));
 }
 
 /// A message if the component's mesh needs far shorter steps than triangles of `size` (m).

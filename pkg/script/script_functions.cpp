@@ -1,12 +1,12 @@
-#include "script/script_functions.hpp"
+#include "fe/fe_solver.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "publish/gil.hpp"
 #include "script/arrays.hpp"
-#include "script/with_gil.hpp"
 
 namespace yadefrag {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-// Data for drawing finite-element bodies in the 3D view. They are a copy: the thread that draws
-// must not wait for a step.
+// Finite-element bodies in YADE's 3D view. Their data are a copy: the thread that draws must not
+// wait for a step.
 
 #include <array>
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "abi/yade.hpp"
 #include "core/vec2.hpp"
+#include "publish/published.hpp"
 
 namespace yadefrag {
 
@@ -34,5 +35,26 @@ struct BodyPicture {
 
 /// A distinct colour for each number.
 [[nodiscard]] Colour colourOf(std::uint32_t number);
+
+class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlShapeFunctor> {
+ public:
+  static constexpr const char* kName = "Gl1_SurfaceSegment";
+  static constexpr const char* kDoc =
+      "Draws the bodies of FESolver in the 3D view: their triangles, filled according to "
+      "FESolver.view, or, where the SurfaceSegment or the view is drawn in wire, their edges; in "
+      "black their boundaries and open cracks, in red cohesive cracks.";
+  static Attributes attributes() { return {}; }
+
+  void go(const yade::shared_ptr<yade::Shape>& shape, const yade::shared_ptr<yade::State>& state,
+          bool wire, const yade::GLViewInfo& view) override;
+  yade::string get1DFunctorType1() const override { return "SurfaceSegment"; }
+  yade::string renders() const override { return "SurfaceSegment"; }
+  void initgl() override {}
+
+ private:
+  void takePictures();
+
+  std::vector<BodyPicture> pictures_;  // of the last update that did not have to wait
+};
 
 }  // namespace yadefrag

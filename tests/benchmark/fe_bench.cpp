@@ -14,7 +14,7 @@
 #include "dynamics/critical_time_step.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag {

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "mesh/shapes.hpp"
-#include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 

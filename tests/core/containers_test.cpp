@@ -11,9 +11,9 @@
 #include "core/columns.hpp"
 #include "core/csr.hpp"
 #include "core/disjoint_sets.hpp"
-#include "core/time_table.hpp"
 #include "core/work_list.hpp"
 #include "mesh/model.hpp"
+#include "mesh/motion.hpp"
 
 namespace yadefrag::test {
 namespace {

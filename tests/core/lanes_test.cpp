@@ -13,8 +13,7 @@
 
 #include "core/checks.hpp"
 #include "core/four_lanes.hpp"
-#include "core/instruction_set.hpp"
-#include "core/lane_math.hpp"
+#include "core/lanes.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag::test {

@@ -13,7 +13,7 @@
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 
 namespace yadefrag {
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 

@@ -14,7 +14,7 @@
 #include "fracture/separation.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 
 namespace yadefrag {
 namespace {

@@ -12,11 +12,10 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/fracture.hpp"
-#include "fracture/coarse_mesh.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "fracture/crack_edges.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
-#include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
 
 namespace yadefrag::test {

@@ -1,6 +1,6 @@
 // Bodies that crack edge by edge, at random, until every triangle is on its own.
 
-#include "fracture/node_splitting.hpp"
+#include "fracture/fracture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@
 #include "core/disjoint_sets.hpp"
 #include "fracture/random_cracks.hpp"
 #include "step/bodies.hpp"
-#include "step/overlap_depth.hpp"
+#include "step/overlap_check.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "core/disjoint_sets.hpp"
-#include "fracture/node_splitting.hpp"
-#include "meshing/structured.hpp"
+#include "fracture/fracture.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/world.hpp"
-#include "surface/relink.hpp"
+#include "surface/contact_surface.hpp"
 #include "surface/surface_checks.hpp"
 
 namespace yadefrag::test {

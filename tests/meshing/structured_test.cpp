@@ -11,10 +11,9 @@
 #include "curve/position_code.hpp"
 #include "dynamics/element_state.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/initial_stress.hpp"
 #include "mesh/shapes.hpp"
-#include "meshing/curve_numbering.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/mesh_stages.hpp"
+#include "meshing/triangulate.hpp"
 
 namespace yadefrag::test {
 namespace {

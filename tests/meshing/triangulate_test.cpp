@@ -15,7 +15,7 @@
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
-#include "meshing/curve_numbering.hpp"
+#include "meshing/mesh_stages.hpp"
 #include "meshing/triangulate.hpp"
 
 namespace yadefrag {

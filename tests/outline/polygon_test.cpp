@@ -11,9 +11,7 @@
 #include "core/checks.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "outline/convex_hull.hpp"
 #include "outline/polygon.hpp"
-#include "outline/snap.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "dynamics/plastic_damage.hpp"
+#include "dynamics/plastic_flow.hpp"
 #include "fracture/overlaps.hpp"
 #include "step/bodies.hpp"
 

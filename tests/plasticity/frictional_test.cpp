@@ -10,7 +10,6 @@
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/flowed_shape.hpp"
-#include "dynamics/yielding_state.hpp"
 #include "fracture/overlaps.hpp"
 #include "step/bodies.hpp"
 

@@ -11,7 +11,6 @@
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/plastic_return.hpp"
-#include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {

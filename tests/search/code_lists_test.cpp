@@ -12,7 +12,7 @@
 #include "curve/numbering.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
-#include "search/filter_list.hpp"
+#include "search/filter_box.hpp"
 #include "search/row_begins.hpp"
 #include "search/sorted_list.hpp"
 

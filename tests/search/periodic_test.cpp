@@ -9,9 +9,7 @@
 
 #include "core/errors.hpp"
 #include "search/contact_search.hpp"
-#include "search/lattice.hpp"
-#include "search/periodic_images.hpp"
-#include "search/periodic_overlap.hpp"
+#include "search/periodic.hpp"
 
 namespace yadefrag {
 namespace {

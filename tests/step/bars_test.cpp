@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/checks.hpp"
-#include "core/tolerances/solver.hpp"
+#include "core/tolerances/contact.hpp"
 #include "dynamics/element_state.hpp"
 #include "step/bodies.hpp"
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "mesh/shapes.hpp"
-#include "meshing/structured.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/energy_watch.hpp"
 #include "step/world.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/checks.hpp"
 #include "dynamics/element_state.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "outline/polygon.hpp"
 #include "step/bodies.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "fe/fe_archive.hpp"
+#include "fe/column_archive.hpp"
 #include "publish/any_archive.hpp"
 #include "step/bodies.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 #include "mesh/motion.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
 #include "step/world.hpp"
 

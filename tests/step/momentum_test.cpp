@@ -10,7 +10,7 @@
 
 #include "core/checks.hpp"
 #include "core/errors.hpp"
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
-#include "step/overlap_depth.hpp"
+#include "step/overlap_check.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

@@ -13,7 +13,7 @@
 #include "core/tolerances/step.hpp"
 #include "outline/polygon.hpp"
 #include "step/bodies.hpp"
-#include "step/entry_pairs.hpp"
+#include "step/halo_watch.hpp"
 
 namespace yadefrag::test {
 namespace {

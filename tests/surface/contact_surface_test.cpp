@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "contact/pass_rule.hpp"
-#include "step/entry_pairs.hpp"
+#include "step/halo_watch.hpp"
 #include "surface/contact_surface.hpp"
-#include "surface/relink.hpp"
 #include "surface_checks.hpp"
 
 namespace yadefrag {

@@ -10,7 +10,6 @@
 #include "contact/contact_scenes.hpp"
 #include "core/checks.hpp"
 #include "mesh/shapes.hpp"
-#include "surface/bezier_arc.hpp"
 #include "surface/disc_contact.hpp"
 #include "surface/piece_geometry.hpp"
 #include "surface_checks.hpp"

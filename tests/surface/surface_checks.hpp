@@ -12,7 +12,6 @@
 
 #include "surface/contact_surface.hpp"
 #include "surface/piece_geometry.hpp"
-#include "surface/relink.hpp"
 
 namespace yadefrag {
 

@@ -179,7 +179,7 @@ TEST(Strip, TheMeshNeedNotBeRegular) {
 
 // Measured: GII at the first break over κGc is 1.05, 1.07 with 6 and 16 elements in the zone
 // E·κGc/(βσc)² of a crack that slides, 1.03 with β = 2, κ = 4. With the pull alone at the tip 1.49
-// and 1.08 (fracture/tip_pull.hpp).
+// and 1.08 (fracture/tip_pull.cpp).
 TEST(Strip, SlidingCrackHasItsOwnZone) {
   const Outcome six = pullUntilBreak({.rows = 24, .shear = true});
   const Outcome same = pullUntilBreak({.rows = 24, .shear = true, .beta = 2, .kappa = 4});

@@ -216,8 +216,7 @@ def _guardCopy(reduce):
 def guardSolver() -> None:
     """Sentences for wrong arguments of methods that are written in C++."""
     solver = wrapper.FESolver
-    remove, fragments, overlap, critical = solver.removeBody, solver.fragments, solver.deepestOverlap, \
-        solver.criticalTimeStep
+    remove, fragments = solver.removeBody, solver.fragments
 
     @functools.wraps(remove)
     def removeBody(self, component):
@@ -228,16 +227,10 @@ def guardSolver() -> None:
     def guardedFragments(self, held=True):
         return fragments(self, flag('held', held))
 
-    @functools.wraps(overlap)
-    def deepestOverlap(self):
-        return overlap(self)
-
-    @functools.wraps(critical)
-    def criticalTimeStep(self):
-        return critical(self)
+    def alone(method):
+        return functools.wraps(method)(lambda self: method(self))
 
     guardedFragments.__qualname__ = 'FESolver.fragments'
-    methods: tuple[Any, ...] = removeBody, guardedFragments, deepestOverlap, criticalTimeStep
-    for method in methods:
+    for method in (removeBody, guardedFragments, alone(solver.deepestOverlap), alone(solver.criticalTimeStep)):
         setattr(solver, method.__name__, inWords(method))
     solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)

@@ -22,11 +22,13 @@ from yadefrag import _yadefrag, messages
 from yadefrag.arguments import shown, shownPath, whole
 from yadefrag.fe.contents import requireNoStep
 from yadefrag.files import replacing, requireWritable
-from yadefrag.scene import refusals, scene_check
+from yadefrag.scene import scene_check
 
 _LOOK = .05  # s, from one check for Ctrl-C to the next
 _saving = threading.RLock()  # held while a run rests for a save
 _count = SimpleNamespace(pauses=0, stepsBefore=0, interrupts=0)
+_LOGGERS = ('ThreadRunner', 'yadeWrapper.cpp')  # YADE's lines about an error of a step
+_refusals = SimpleNamespace(waiting=0, levels={})  # runs that a script waits for; {logger: its level before}
 _saved = SimpleNamespace(part='', name='')  # of the last save: the file that YADE has written, its name afterwards
 MOST_STEPS = 2**62  # the largest number that YADE can count
 
@@ -107,6 +109,32 @@ def _aside(call):
         raise errors[0]
 
 
+@contextlib.contextmanager
+def _raisedHere():
+    """The block waits for a run, and raises the error if FESolver refuses a step: YADE's lines about the same error
+    are not written. Errors of other engines are written as ever."""
+    _refusals.waiting += 1
+    try:
+        yield
+    finally:
+        _refusals.waiting -= 1
+        while _refusals.levels and not _refusals.waiting:
+            from yade import log
+            name, level = _refusals.levels.popitem()
+            if level < 0:
+                log.unsetLevel(name)  # that of the default
+            else:
+                log.setLevel(name, level)
+
+
+def silenceRefusal() -> None:
+    """FESolver calls this in a step that it refuses."""
+    for name in _LOGGERS if _refusals.waiting else ():
+        from yade import log
+        _refusals.levels.setdefault(name, log.getAllLevels().get(name, -1))
+        log.setLevel(name, 0)
+
+
 def _rests():
     with _saving:
         return not wrapper.Omega().running
@@ -120,7 +148,7 @@ def waitForEnd() -> None:
 
 def _waitWith(omega, begin):
     """begin(), then YADE's O.wait(), which has the errors of engines, but not of a run that has ended before."""
-    with refusals.raisedHere():
+    with _raisedHere():
         _aside(begin)
         while not _rests():
             _aside(lambda: _yade.wait(omega))
@@ -326,7 +354,7 @@ def runPart(steps: int) -> tuple[int, bool]:
     omega = wrapper.Omega()
     begin, pauses = stepsDone(), _count.pauses
     try:
-        with refusals.raisedHere():
+        with _raisedHere():
             omega.run(steps)
             waitForEnd()
     except BaseException:

@@ -42,14 +42,9 @@ def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., 
     files     path without ending: writes .csv and, if a run has a value, .png
     title     of the plot
 
-    Each run is a separate `yade -n -x`. A run that the scene or an engine refuses, that blows up,
-    fails or takes too long is a row with that result. What runs warn of is in `warnings` of their rows,
-    and is passed on as a warning of this call, once for each kind, with the number of these runs. The
-    table has means of runs that differ in nothing but the seed; print(table) shows them. Ctrl-C ends the
-    runs; the table then has the finished ones. Functions must be at the top level of a file, and the call
-    in a script after `if __name__ == '__main__':`, since each run loads the file again.
-    ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
-    RuntimeError if the file cannot be loaded again.
+    Runs, their results and warnings, Ctrl-C, and what functions and the call need, are as for tradeoff. The
+    table has means of runs that differ in nothing but the seed; print(table) shows them. ValueError, OSError
+    and RuntimeError as tradeoff.
     """
     job = dict(jobOf('ensemble', scene, measure, watch, duration, every, limit, executor), isSeveral=True)
     settings = _settings(runs)

@@ -51,12 +51,9 @@ def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | 
     limit      s, wall-clock time of a run including its set-up
     files      path without ending: writes .csv, .md and .png
     title      of the plot
-    executor   None: one run after the other, here; or an executor as in concurrent.futures, mpi4py or
-               Dask, whose workers start yade on their machines and access the same files. Times are
-               meaningful only if each run has a separate core
-    resume     None, or a file .jsonl of finished runs: an interrupted call continues where it
-               stopped if it is repeated with the same arguments. Remove the file if the scene has
-               changed
+    executor   None: one run after the other, here; or an executor as for ensemble. Times are meaningful
+               only if each run has a separate core
+    resume     None, or a file of finished runs, as for ensemble
     by         name or names of choices that make another problem, with another correct result, e.g. a
                rate of loading: each of its values has its own reference ('finest', or the dict of
                choices) and its own Pareto front; so has each 'seed'. The table also has the means of
