@@ -79,7 +79,7 @@ void removeGone(Candidates& candidates, const ContactSurfaces& surfaces);
 // --- The pairs of a step that have a row, by slave.
 
 /// Data of a row with a force that are stored for the next step.
-struct Touch {
+struct StoredContact {
   SlaveMaster pair;
   double normalForce, tangentForce;  ///< N, start values of the next solution
   double toleratedGap;               ///< m, ≤ 0: the overlap that the row has left

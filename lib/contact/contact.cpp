@@ -43,7 +43,7 @@ void Contact::reserve(std::size_t nodes) {
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   assert(forces_.empty() || forces_.size() == model.nodes.size());  // `resize` follows new nodes
-  assert(std::ranges::none_of(touches, [&](const Touch& touch) {
+  assert(std::ranges::none_of(touches, [&](const StoredContact& touch) {
     return surfaces.isGone(touch.pair.slave) || surfaces.isGone(touch.pair.master);
   }));
   begin(step);
@@ -78,7 +78,7 @@ void Contact::clearForces() {
   touched_.clear();
 }
 
-void Contact::takeBack() {
+void Contact::undo() {
   if (isFinished_) touches.swap(formerTouches_);
   rows_.swap(formerRows_);
   now_ = former_;
@@ -109,7 +109,7 @@ void Contact::makeRows(const Model& model, const ContactSurfaces& surfaces,
   bool hasFirst = false;  // the row before is in the system
   for (const NearRow& near : near_) {
     ContactRow row = rowOf(near, surfaces, model.nodes, step);
-    const Touch* const former = touchOf({row.slave, row.master});
+    const StoredContact* const former = storedContactOf({row.slave, row.master});
     const bool isHeld = isHeldByCohesion(row, step.coupled);
     const bool isPair = near.isSecond && hasFirst;
     // Cohesion keeps corners of one split node together. Their rows would be as many as its

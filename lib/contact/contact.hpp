@@ -47,7 +47,7 @@ class Contact {
   void correct(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   /// Undoes the last `correct`, complete or ended by an exception, except for positions and
   /// velocities. Allocates no memory.
-  void takeBack();
+  void undo();
 
   /// After entries were renumbered: `numbers` by former number; none() of removed ones. Forces of
   /// contacts are kept.
@@ -72,7 +72,7 @@ class Contact {
   [[nodiscard]] int sweeps() const { return now_.sweeps; }
 
   Candidates candidates;
-  std::vector<Touch> touches;  ///< of the rows of the last step, in their order
+  std::vector<StoredContact> touches;  ///< of the rows of the last step, in their order
 
  private:
   /// Statistics of a step.
@@ -105,7 +105,7 @@ class Contact {
   [[nodiscard]] double frictionOf(SlaveMaster pair, const ContactSurfaces& surfaces) const;
   [[nodiscard]] static bool isHeldByCohesion(const ContactRow& row, const CoupledForces* cohesion);
   void indexTouches(std::size_t entries);
-  [[nodiscard]] const Touch* touchOf(SlaveMaster pair) const;
+  [[nodiscard]] const StoredContact* storedContactOf(SlaveMaster pair) const;
   void move(Model& model, const ContactStep& step);
   void moveRigid(Model& model, const ContactStep& step, double& largest);
   void sumForces();
@@ -132,9 +132,9 @@ class Contact {
     bool hasRow = false;  // the body moves with the correction
   };
   std::vector<RigidLoad> rigidLoads_;  // by rigid body
-  // Of the previous step, for `takeBack`; `touches` only after the step has set its own.
+  // Of the previous step, for `undo`; `touches` only after the step has set its own.
   std::vector<ContactRow> formerRows_;
-  std::vector<Touch> formerTouches_;
+  std::vector<StoredContact> formerTouches_;
   Figures former_;
   bool isFinished_ = false;
 };

@@ -11,10 +11,11 @@ namespace yadefrag {
 namespace {
 
 /// With new numbers, and without contacts of removed entries.
-std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryId> numbers) {
-  for (Touch& touch : touches)
+std::vector<StoredContact> renumbered(std::vector<StoredContact> touches,
+                                      std::span<const EntryId> numbers) {
+  for (StoredContact& touch : touches)
     touch.pair = {numbers[touch.pair.slave.value], numbers[touch.pair.master.value]};
-  std::erase_if(touches, [](const Touch& touch) {
+  std::erase_if(touches, [](const StoredContact& touch) {
     return touch.pair.slave == EntryId::none() || touch.pair.master == EntryId::none();
   });
   return touches;
@@ -51,24 +52,24 @@ double Contact::frictionOf(SlaveMaster pair, const ContactSurfaces& surfaces) co
 void Contact::indexTouches(std::size_t entries) {
   pairs_.clear();
   pairs_.grow(entries);
-  for (const Touch& touch : touches) pairs_.add(touch.pair);
+  for (const StoredContact& touch : touches) pairs_.add(touch.pair);
 }
 
 /// The contact of the last step, or null.
-const Touch* Contact::touchOf(SlaveMaster pair) const {
+const StoredContact* Contact::storedContactOf(SlaveMaster pair) const {
   const std::uint32_t number = pairs_.numberOf(pair);
   return number == PairsOfSlaves::kNone ? nullptr : &touches[number];
 }
 
 void Contact::renumber(std::span<const EntryId> numbers) {
-  std::vector<Touch> kept = renumbered(std::move(touches), numbers);
+  std::vector<StoredContact> kept = renumbered(std::move(touches), numbers);
   reset();
   touches = std::move(kept);
 }
 
 void Contact::removeGone(const ContactSurfaces& surfaces) {
   yadefrag::removeGone(candidates, surfaces);
-  std::erase_if(touches, [&](const Touch& t) {
+  std::erase_if(touches, [&](const StoredContact& t) {
     return surfaces.isGone(t.pair.slave) || surfaces.isGone(t.pair.master);
   });
 }

@@ -183,9 +183,9 @@ void ExplicitDynamics::sumChunk(Model& model, std::size_t index, const BulkVisco
     std::fill_n(viscous, count, Vec2{});
     addViscousForces(viscosity, chunk, lanes, laws, position, velocity, viscous);
     for (std::size_t i = 0; i < count; ++i) force[i] += viscous[i];
-    handOut(elements_, chunk, viscous, viscousForce_, partialViscous_);
+    scatter(elements_, chunk, viscous, viscousForce_, partialViscous_);
   }
-  handOut(elements_, chunk, force, force_, partialForce_);
+  scatter(elements_, chunk, force, force_, partialForce_);
 }
 
 void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end) {
@@ -194,8 +194,8 @@ void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, N
   const auto last = std::lower_bound(first, shared.end(), end);
   for (auto row = first - shared.begin(); row < last - shared.begin(); ++row) {
     const std::uint32_t node = shared[row].value;
-    force_[node] = addUp(elements_, partialForce_, row);
-    if (viscosity.isOn()) viscousForce_[node] = addUp(elements_, partialViscous_, row);
+    force_[node] = reduce(elements_, partialForce_, row);
+    if (viscosity.isOn()) viscousForce_[node] = reduce(elements_, partialViscous_, row);
   }
 }
 
@@ -282,7 +282,7 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     const auto moveAll = forced ? &ExplicitDynamics::move<true> : &ExplicitDynamics::move<false>;
     if (!badElement_ && !errors.any()) (this->*moveAll)(model.nodes, update, begin, end);
   }
-  if (errors.any()) flow_.takeBack(model);
+  if (errors.any()) flow_.undo(model);
   errors.rethrow();
 }
 
@@ -316,10 +316,10 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   try {
     collectStressed();
   } catch (...) {  // no memory
-    flow_.takeBack(model);
+    flow_.undo(model);
     throw;
   }
-  if (badElement_ || badNode_) flow_.takeBack(model);
+  if (badElement_ || badNode_) flow_.undo(model);
   if (badElement_) refuseElement(model);
   if (badNode_) refuseNode(model);
   model.nodes.position.swap(previousPosition_);

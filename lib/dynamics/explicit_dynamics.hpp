@@ -88,7 +88,7 @@ class ExplicitDynamics {
   void setHeld(NodeId node, Vec2 velocity) { heldVelocity_[node.value] = velocity; }
 
   /// Undoes `predict` and all later changes of positions and velocities.
-  void takeBack(Model& model);
+  void undo(Model& model);
 
   /// Computes the work of gravity, loads, external forces, damping, viscosity and prescribed
   /// motion, after the correction of the velocities. `contactForces` (N, by node; empty: none) are

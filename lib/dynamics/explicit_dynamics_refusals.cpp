@@ -95,11 +95,11 @@ void ExplicitDynamics::exchangeHeld(Nodes& nodes) {
       if ((nodes.held[n] & flag) != 0) std::swap(nodes.velocity[n].*axis, heldVelocity_[n].*axis);
 }
 
-void ExplicitDynamics::takeBack(Model& model) {
+void ExplicitDynamics::undo(Model& model) {
   model.nodes.position.swap(previousPosition_);
   model.nodes.velocity.swap(previousVelocity_);
   exchangeHeld(model.nodes);
-  flow_.takeBack(model);
+  flow_.undo(model);
 }
 
 void ExplicitDynamics::refuseElement(const Model& model) {

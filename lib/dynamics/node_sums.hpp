@@ -19,7 +19,7 @@ void fetchNodes(const ElementChunks& elements, const Chunk& chunk, const std::ve
 
 /// To the nodes, or to partial sums.
 template <class T>
-void handOut(const ElementChunks& elements, const Chunk& chunk, const T* local,
+void scatter(const ElementChunks& elements, const Chunk& chunk, const T* local,
              std::vector<T>& values, std::vector<T>& partial) {
   for (std::uint32_t i = chunk.firstNode; i < chunk.firstShared; ++i)
     values[elements.nodes[i].value] = *local++;
@@ -29,7 +29,7 @@ void handOut(const ElementChunks& elements, const Chunk& chunk, const T* local,
 
 /// Sums the partial values of a shared node in the order of its chunks.
 template <class T>
-T addUp(const ElementChunks& elements, const std::vector<T>& partial, std::size_t row) {
+T reduce(const ElementChunks& elements, const std::vector<T>& partial, std::size_t row) {
   T sum{};
   for (std::uint32_t i = elements.firstPartial[row]; i < elements.firstPartial[row + 1]; ++i)
     sum += partial[i];
@@ -68,7 +68,7 @@ class NodeSums {
   /// Then, for each row of `ElementChunks::sharedNodes`: each chunk of the node gets the whole sum.
   void sumShared(const ElementChunks& elements, std::size_t row) {
     std::fill(whole_.begin() + elements.firstPartial[row],
-              whole_.begin() + elements.firstPartial[row + 1], addUp(elements, partial_, row));
+              whole_.begin() + elements.firstPartial[row + 1], reduce(elements, partial_, row));
   }
   /// Then the chunk's whole sums.
   [[nodiscard]] T* whole(const ElementChunks& elements, const Chunk& chunk) {

@@ -48,7 +48,7 @@ void PlasticDamage::add(Model& model, const PlasticMaterial& m, std::uint32_t el
   damage = after;
 }
 
-void PlasticDamage::takeBack(Model& model) {
+void PlasticDamage::undo(Model& model) {
   for (Thread& one : threads_) {
     for (const Former& former : one.former)
       model.triangles.plastic.damage[former.element] = former.damage;
@@ -264,7 +264,7 @@ double PlasticFlow::dissipation() const {
   return sum;
 }
 
-void PlasticFlow::takeBack(Model& model) {
+void PlasticFlow::undo(Model& model) {
   PlasticState& state = model.triangles.plastic;
   for (FlowRoom& one : threads_) {
     for (const FormerLanes& former : one.former) {
@@ -279,7 +279,7 @@ void PlasticFlow::takeBack(Model& model) {
     }
     one.former.clear(), one.squaredSteepest = 0;
   }
-  damage_.takeBack(model);
+  damage_.undo(model);
   std::ranges::fill(dissipated_, 0);
 }
 

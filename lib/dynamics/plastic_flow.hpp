@@ -37,7 +37,7 @@ class PlasticDamage {
   void add(Model& model, const PlasticMaterial& m, std::uint32_t element, const FlowStep& step,
            double dt, std::size_t thread);
   /// Undoes the changes of the last step.
-  void takeBack(Model& model);
+  void undo(Model& model);
   /// Appends the triangles that have failed.
   void appendFailed(std::vector<ElementRange>& ranges) const;
 
@@ -101,7 +101,7 @@ class PlasticFlow {
   /// (J) Work that the triangles have dissipated in the last step, up to the positions xⁿ.
   [[nodiscard]] double dissipation() const;
   /// Undoes the changes of the last step.
-  void takeBack(Model& model);
+  void undo(Model& model);
   /// True if flow has made triangles so much flatter that the critical step must be computed anew;
   /// then `noteSteepest`.
   [[nodiscard]] bool isSteeper() const { return isSteeper(steepness()); }

@@ -76,7 +76,7 @@ template <bool kPlane, bool kNodal, bool kCone, std::size_t W>
 
 /// Compares the trial with the last step.
 template <bool kPlane, bool kNodal, bool kCone, std::size_t W>
-[[gnu::always_inline]] inline void lookBack(const ReturnInput<W>& in, FlowLanes<W>& w) {
+[[gnu::always_inline]] inline void compareWithLastStep(const ReturnInput<W>& in, FlowLanes<W>& w) {
   const SolidModuli m = in.c.moduli;
   w.forAnySize([&](std::size_t k, auto isAlone) __attribute__((always_inline)) {
     constexpr bool kAnySize = decltype(isAlone)::value, kFree = kPlane && kAnySize;
@@ -198,7 +198,7 @@ template <std::size_t W>
 
 /// In plane stress the thickness depends on the flow, and the flow on the thickness.
 template <YieldConstants::Kind kKind, std::size_t W>
-[[gnu::always_inline]] inline void settleThickness(const ReturnInput<W>& in, FlowLanes<W>& w) {
+[[gnu::always_inline]] inline void solveThickness(const ReturnInput<W>& in, FlowLanes<W>& w) {
   const SolidModuli m = in.c.moduli;
   LaneGroups<W> open = w.groups;
   for (int i = 0; i < tolerance::kThicknesses && open.count > 0; ++i) {
@@ -312,12 +312,12 @@ template <bool kOpens, std::size_t W>
 template <YieldConstants::Kind kKind, bool kPlane, bool kNodal, std::size_t W>
 [[gnu::always_inline]] inline void returnLanes(const ReturnInput<W>& in, FlowLanes<W>& w) {
   constexpr bool kCone = kKind == YieldConstants::Kind::kCone;
-  lookBack<kPlane, kNodal, kCone>(in, w);
+  compareWithLastStep<kPlane, kNodal, kCone>(in, w);
   if constexpr (kCone) {
     flowOnCone<kNodal>(in.c, w);
   } else {
     findStep<kKind>(in.c, in.dt, w);
-    if constexpr (kPlane) settleThickness<kKind>(in, w);
+    if constexpr (kPlane) solveThickness<kKind>(in, w);
     harden(in.c, w);
   }
   shape<kCone>(w);

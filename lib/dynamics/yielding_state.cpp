@@ -42,7 +42,7 @@ struct Pair {
   double formerMean = 0;     // Pa, of τ
   NodalPressure pressure{};  // smoothed
   double trialMean = 0;      // Pa, of τ, before any opening
-  Returned present;          // after `settle`
+  Returned present;          // after `returnStress`
 
   Pair(const Model& model, ElementId id, double dt)
       : element(id),
@@ -61,7 +61,7 @@ struct Pair {
     former = trialOf(constants, point, motion.before, thickness);
     formerMean = meanStress(former.volume, constants.moduli.bulk);
   }
-  void settle(double dt, bool isNodal = false) {
+  void returnStress(double dt, bool isNodal = false) {
     present = returnToYield(constants, point, motion, dt, isNodal ? &pressure : nullptr);
   }
   void open() { pressure.opening = nodalOpening(constants, trial, motion.size, pressure.now); }
@@ -96,7 +96,7 @@ struct Yielding {
         if (isOpening(p)) p.pressure.now = meanPressure(model, p, now);
     }
     for (Pair& p : pairs) {
-      p.settle(dt, p.smoothed);
+      p.returnStress(dt, p.smoothed);
       if (isOpening(p)) p.present.trialMean = p.trialMean;
     }
   }
@@ -149,7 +149,7 @@ std::vector<YieldPoint> presentPoints(const Model& model, double dt) {
 
 Returned presentState(const Model& model, ElementId element, double dt) {
   Pair pair(model, element, dt);
-  pair.settle(dt);
+  pair.returnStress(dt);
   return pair.present;
 }
 

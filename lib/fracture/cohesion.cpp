@@ -291,7 +291,7 @@ void Cohesion::widenBroken(const Model& model, const CrackEdges& edges) {
   }
 }
 
-void Cohesion::settle(const Model& model, const CrackEdges& edges) {
+void Cohesion::keepOpenings(const Model& model, const CrackEdges& edges) {
   const std::vector<Vec2>& position = model.nodes.position;
   for (const Point& point : points_) {
     const FaceTractions& t = point.tractions;

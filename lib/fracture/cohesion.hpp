@@ -89,7 +89,7 @@ class Cohesion final : public CoupledForces {
   void renumberEdges(std::span<const EdgeId> renumbered);
 
   /// Corrects the predicted x* by the cohesive tractions; `before`: m, xⁿ, for the normals. The
-  /// stored openings of the cracks change only in `settle`.
+  /// stored openings of the cracks change only in `keepOpenings`.
   void correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
   // While contact is solved:
@@ -110,7 +110,7 @@ class Cohesion final : public CoupledForces {
                const StepLength& step) const;
   /// Call it at the end of the step, after contact. Stores the cracks' largest openings, and
   /// removes cracks that no longer transmit traction; these are listed in `released`.
-  void settle(const Model& model, const CrackEdges& edges);
+  void keepOpenings(const Model& model, const CrackEdges& edges);
 
   /// (N) Adds the forces of the present step's tractions, by node.
   void addForces(std::vector<Vec2>& forces) const;

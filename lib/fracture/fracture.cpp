@@ -49,7 +49,7 @@ class YieldingSplit {
                 double dt);
   /// Afterwards; `originals` as in SplitResult. Returns the energy (J) that these bodies have
   /// gained, at the half step.
-  double settle(Model& model, std::span<const NodeId> originals, double dt) const;
+  double applySplit(Model& model, std::span<const NodeId> originals, double dt) const;
 
  private:
   struct Sum;
@@ -135,7 +135,7 @@ auto YieldingSplit::sumsOf(const Model& model, std::span<const NodeId> originals
   return sums;
 }
 
-double YieldingSplit::settle(Model& model, std::span<const NodeId> originals, double dt) const {
+double YieldingSplit::applySplit(Model& model, std::span<const NodeId> originals, double dt) const {
   if (around_.empty()) return 0;
   std::vector<double> ratio;
   for (const ElementId e : around_) ratio.push_back(ratioOf(model, e));
@@ -217,7 +217,7 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   const YieldingSplit yielding(model, edges, cracks_, step.length);
   splitNodes(model, edges, surfaces, cracks_, result);
   check_.follow(model, edges, cracks_, result.originals);
-  yieldingGain_ = yielding.settle(model, result.originals, step.length);
+  yieldingGain_ = yielding.applySplit(model, result.originals, step.length);
   return !result.sides.empty();
 }
 
@@ -260,7 +260,7 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
   return gained;
 }
 
-void Fracture::cohere(const Model& model) {
+void Fracture::applyCohesion(const Model& model) {
   for (const EdgeId edge : cracks_)
     if (edges.fractureEnergy[edge.value] > 0) cohesion.add(model, edges, edge);
 }

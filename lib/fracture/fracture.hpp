@@ -66,7 +66,7 @@ class Fracture {
   /// (J) The same of bodies that yield, in the last call of `crack`.
   [[nodiscard]] double yieldingGain() const { return yieldingGain_; }
   /// Makes the cracks of the last call of `crack` cohesive by their law.
-  void cohere(const Model& model);
+  void applyCohesion(const Model& model);
 
   /// True if strengths changed in the last call of `crack`.
   [[nodiscard]] bool hasRaised() const { return hasRaised_; }

@@ -15,10 +15,10 @@ IncrementalSearch::IncrementalSearch(SearchMethod method, bool countComparisons)
 
 void IncrementalSearch::update(std::span<const Box> boxes) {
   boxes_ = boxes;
-  settle();
+  applyChanges();
 }
 
-void IncrementalSearch::settle() {
+void IncrementalSearch::applyChanges() {
   settled_->update(boxes_);
   asidePlace_.assign(boxes_.size(), 0);
   isChanged_.assign(boxes_.size(), false);
@@ -39,7 +39,7 @@ void IncrementalSearch::change(std::span<const Box> boxes, std::span<const BoxId
   for (const BoxId slot : changed_) isChanged_[slot.value] = false;
   workAside_ += asideSlots_.size() + changed.size();
   if (workAside_ > tolerance::kAsideWork * boxes.size()) {
-    settle();
+    applyChanges();
   } else {
     settled_->relocate(boxes);
     putAside(changed);

@@ -45,7 +45,7 @@ class IncrementalSearch {
 
  private:
   void putAside(std::span<const BoxId> changed);
-  void settle();
+  void applyChanges();
   void pairsOf(BoxId slot, std::vector<BoxId>& found, std::vector<BoxPair>& out) const;
 
   std::unique_ptr<ContactSearch> settled_, aside_;

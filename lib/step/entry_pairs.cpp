@@ -1,4 +1,4 @@
-#include "step/halo_watch.hpp"
+#include "step/search_schedule.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -75,7 +75,7 @@ void Loads::renumber(std::span<const SegmentId> numbers) {
   removeUnused();
 }
 
-void Loads::followDivision(const ContactSurfaces& surfaces, std::span<const SegmentId> parents) {
+void Loads::onDivision(const ContactSurfaces& surfaces, std::span<const SegmentId> parents) {
   const auto count = static_cast<std::uint32_t>(surfaces.segments());
   assert(parents.size() <= count);
   const auto first = static_cast<std::uint32_t>(count - parents.size());

@@ -35,7 +35,7 @@ class Loads {
   void renumber(std::span<const SegmentId> numbers);
   /// Segments were divided, but not by a crack: the last segments are new. `parents`: by new
   /// segment, the one of which it was a part.
-  void followDivision(const ContactSurfaces& surfaces, std::span<const SegmentId> parents);
+  void onDivision(const ContactSurfaces& surfaces, std::span<const SegmentId> parents);
   /// Extends pressures to the faces of cracks. Those of cohesive cracks have none.
   void spread(const Model& model, const ContactSurfaces& surfaces, const Fracture& fracture);
 

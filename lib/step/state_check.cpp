@@ -145,7 +145,7 @@ bool contactIsValid(const World& world) {
                                     c.offsets.back() == c.masters.size() &&
                                     std::ranges::is_sorted(c.offsets);
   return offsetsFit && allBelow(c.slaves, entries) && allBelow(c.masters, entries) &&
-         std::ranges::all_of(world.contact.touches, [&](const Touch& t) {
+         std::ranges::all_of(world.contact.touches, [&](const StoredContact& t) {
            return t.pair.slave.value < entries && t.pair.master.value < entries;
          });
 }

@@ -25,10 +25,10 @@ void World::step(double dt) {
     requireStableStep(dt);
     advance(dt);
   } catch (const RunError& error) {
-    takeBack();
+    undo();
     throw RunError(fmt::format("Step {}, time {:g} s: {}", steps, time, error.what()));
   } catch (...) {
-    takeBack();
+    undo();
     throw;
   }
   try {
@@ -47,14 +47,14 @@ void World::advance(double dt) {
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
   drive(dt);
   loads.sum(model, surfaces, time);
-  search.foreseeMotion(searchScene(), dt);
+  search.boundMotion(searchScene(), dt);
 
   // Internal forces, then v* and x*, without contact.
   predict(length);
   absorb(length);
 
   // Tractions of cohesive cracks.
-  cohere(length);
+  applyCohesion(length);
   requireBoundedMotion(dt);
 
   // Global search, only if a node left the halo of the last one: usually the last candidates are
@@ -159,10 +159,10 @@ void World::beginUndo() {
 }
 
 /// Allocates no memory.
-void World::takeBack() {
-  search.takeBack(searchScene());
-  if (undo_.hasCorrected) contact.takeBack();
-  if (undo_.hasMoved) dynamics_.takeBack(model);
+void World::undo() {
+  search.undo(searchScene());
+  if (undo_.hasCorrected) contact.undo();
+  if (undo_.hasMoved) dynamics_.undo(model);
   undoDrive();
   ledger = undo_.ledger;
   watch = undo_.watch;
@@ -180,7 +180,7 @@ bool World::canTouch() const {
   return model.components[owners.front().value].selfContact || severalBodies_;
 }
 
-HaloWatch::Scene World::searchScene() {
+SearchSchedule::Scene World::searchScene() {
   return {model,
           surfaces,
           contactSettings,
@@ -223,7 +223,7 @@ void World::countContactWork(const StepLength& length) {
   }
 }
 
-void World::cohere(const StepLength& length) {
+void World::applyCohesion(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
   const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.correct(model, fracture.edges, dynamics_.previousPosition(), length,
@@ -240,7 +240,7 @@ void World::countFractureWork(const StepLength& length) {
 bool World::crack() {
   if (!fracture.isOn()) return false;
   const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
-  fracture.cohesion.settle(model, fracture.edges);
+  fracture.cohesion.keepOpenings(model, fracture.edges);
   const bool opened =
       fracture.crack(model, surfaces, dynamics_.stressed(), {time, lastDt}, split_, threads);
   fracture.noteStart(time);
@@ -248,8 +248,8 @@ bool World::crack() {
   if (opened) gained += fracture.splitEnergy(model, split_.originals, lastDt);
   ledger.fracture -= gained;
   watch.split += gained;
-  if (opened) followSplit();
-  fracture.cohere(model);
+  if (opened) onSplit();
+  fracture.applyCohesion(model);
   loads.spread(model, surfaces, fracture);
   // A step that does not resolve a new law is refused at its begin.
   for (const EdgeId edge : fracture.weakened())
@@ -267,7 +267,7 @@ void World::openJoints(std::span<const EdgeId> joints) {
 }
 
 /// Updates all that is derived from nodes, triangles and the boundary.
-void World::followSplit() {
+void World::onSplit() {
   const std::vector<Vec2>& reference = model.nodes.reference;
   const std::size_t count = model.nodes.size();
   contact.resize(count);
@@ -311,12 +311,12 @@ void World::dropFragments(bool split) {
   droppedBelow_ = area;
   if (around.empty()) return;
   loose_.find(model, fracture.edges, fracture.cohesion, around, area);
-  if (!loose_.triangles.empty()) takeOut(loose_.triangles);
+  if (!loose_.triangles.empty()) remove(loose_.triangles);
 }
 
 /// Triangles, nodes and entries keep their numbers. The triangles get their stress-free shape at
 /// rest, so that they never move or crack again.
-void World::takeOut(std::span<const ElementId> triangles) {
+void World::remove(std::span<const ElementId> triangles) {
   std::vector<NodeId> nodes;
   for (const ElementId element : triangles) {
     const auto& corners = model.triangles.nodes[element.value];

@@ -278,15 +278,15 @@ CommonSides World::conformedSides(std::span<const ComponentId> bodies, double re
   accept(found);
   if (found.pairs.empty()) return found;
   model = std::move(changed), fracture.edges = std::move(edges);
-  followDivision(divided);
+  onDivision(divided);
   if (done != nullptr) *done = std::move(plan);
   return found;
 }
 
 /// Updates the boundary and all that refers to it.
-void World::followDivision(const DividedSides& divided) {
+void World::onDivision(const DividedSides& divided) {
   (void)relink(surfaces, divided.sides);
-  loads.followDivision(surfaces, divided.parents);
+  loads.onDivision(surfaces, divided.parents);
   search.invalidate();
   places_.clear();
   rebuild();

@@ -27,15 +27,15 @@
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
 #include "step/energy_watch.hpp"
-#include "step/halo_watch.hpp"
 #include "step/loads.hpp"
 #include "step/overlap_check.hpp"
+#include "step/search_schedule.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
 
 /// A refused step changes nothing. All changes until then are undone: positions and velocities by
-/// ExplicitDynamics::takeBack, contact by Contact::takeBack, the search by HaloWatch::takeBack, all
+/// ExplicitDynamics::undo, contact by Contact::undo, the search by SearchSchedule::undo, all
 /// other data from here.
 ///
 /// Rejected: a copy of the world. Large arrays are swapped with those that the step writes in any
@@ -204,7 +204,7 @@ class World {
   ContactSurfaces surfaces;
   Loads loads;
   Contact contact;
-  HaloWatch search;
+  SearchSchedule search;
   Fracture fracture;
   EnergyLedger ledger;
   EnergyWatch watch;
@@ -238,13 +238,13 @@ class World {
   void updateStressLimits();
   void advance(double dt);
   void beginUndo();
-  void takeBack();
+  void undo();
   void conclude(double dt);
   void requireBody(ComponentId component, const char* purpose) const;
   CommonSides conformedSides(std::span<const ComponentId> bodies, double reach,
                              const std::function<void(const CommonSides&)>& check,
                              ConformPlan* done);
-  void followDivision(const DividedSides& divided);
+  void onDivision(const DividedSides& divided);
   void bond(const CommonSides& sides, double strength, double energy);
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec, const std::string& subject);
   [[nodiscard]] Vec2 rigidVelocity(NodeId node) const;
@@ -259,19 +259,19 @@ class World {
   void requireFiniteEnergy() const;
   void correctContact(const StepLength& length);
   void countContactWork(const StepLength& length);
-  void cohere(const StepLength& length);
+  void applyCohesion(const StepLength& length);
   void countFractureWork(const StepLength& length);
   void watchEnergy();
   [[nodiscard]] double overlapOfBoundaries() const;
   [[nodiscard]] double energyOf(ComponentId body, NodeId first, double dt) const;
   bool crack();
   void dropFragments(bool split);
-  void takeOut(std::span<const ElementId> triangles);
+  void remove(std::span<const ElementId> triangles);
   void openJoints(std::span<const EdgeId> joints);
-  void followSplit();
+  void onSplit();
   void measureFinest();
   [[nodiscard]] bool canTouch() const;
-  [[nodiscard]] HaloWatch::Scene searchScene();
+  [[nodiscard]] SearchSchedule::Scene searchScene();
   void predict(const StepLength& length);
   void requireUpright(double dt);
   void finish(const StepLength& length);

@@ -85,7 +85,7 @@ std::vector<std::uint32_t> World::rigidEntries() const {
 
 void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::uint32_t> former) {
   const std::vector<std::uint32_t> corners = rigidEntries();
-  std::vector<Touch> touches = contact.touches;
+  std::vector<StoredContact> touches = contact.touches;
   Candidates candidates = contact.candidates;
   std::vector<EntryId> numbers = removeAllRigid();
   try {

@@ -169,7 +169,7 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   if (!radius) return Kind::kOther;
   const yade::State& state = *body.state;
   Ball& ball = balls_[id];
-  const Room room = rule_.roomFor(*radius, state.vel, headings_[id] != 0);
+  const SweptBox room = rule_.sweptBoxOf(*radius, state.vel, headings_[id] != 0);
   ball = {state.se3.position + room.shift, *radius, room.length};
   const Vector3r at = cell_ ? cell_->unshearPt(ball.centre) : ball.centre;
   const Vector3r half = ball.radius * radiusFactor_;

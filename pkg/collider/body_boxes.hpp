@@ -18,7 +18,7 @@
 #include "core/box.hpp"
 #include "core/ids.hpp"
 #include "core/parallel.hpp"
-#include "entries/surface_segment.hpp"
+#include "segments/surface_segment.hpp"
 
 namespace yadefrag {
 

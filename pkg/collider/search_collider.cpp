@@ -11,9 +11,9 @@
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
-#include "entries/surface_segment.hpp"
-#include "fe/running.hpp"
+#include "publish/running.hpp"
 #include "search/periodic.hpp"
+#include "segments/surface_segment.hpp"
 
 namespace yadefrag {
 

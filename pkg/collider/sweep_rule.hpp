@@ -10,7 +10,7 @@
 namespace yadefrag {
 
 /// A cube in which the centre of a sphere may move until the next search.
-struct Room {
+struct SweptBox {
   yade::Vector3r shift;  ///< m, of the cube's centre relative to that of the sphere
   double length;         ///< m, half the cube's edge; YADE's sweepLength
 };
@@ -46,7 +46,8 @@ struct SweepRule {
   /// The room of a sphere. If it is expected to keep its velocity, the room lies around the middle
   /// of its path instead of its position: half as long for the same number of steps, and where
   /// `most` limits it, it lasts twice as long.
-  [[nodiscard]] Room roomFor(double radius, const yade::Vector3r& velocity, bool isStraight) const {
+  [[nodiscard]] SweptBox sweptBoxOf(double radius, const yade::Vector3r& velocity,
+                                    bool isStraight) const {
     const double speed = speedOf(velocity);
     const double around = lengthForBall(radius, speed);
     const bool isFinite = speed * ahead < INFINITY && speed > 0;

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "abi/yade.hpp"
-#include "entries/surface_segment.hpp"
-#include "fe/materials.hpp"
 #include "integrator/id_ranges.hpp"
+#include "materials/materials.hpp"
+#include "segments/surface_segment.hpp"
 #include "step/world.hpp"
 #include "surface/piece_geometry.hpp"
 

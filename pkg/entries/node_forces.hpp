@@ -86,7 +86,7 @@ class NodeForces {
 // --- Forces that FESolver adds to YADE's bodies: they remain until the next reset of forces, and
 // there may be none before the next step.
 
-class GivenForces {
+class ContactReactions {
  public:
   struct Given {
     yade::Body::id_t id;

@@ -180,11 +180,11 @@ class WorldArchive : ColumnArchive {
     column("slaves", candidates.slaves), column("offsets", candidates.offsets);
     column("masters", candidates.masters);
     auto& rows = contact.touches;
-    member("touchSlave", rows, [](Touch& t) -> Index& { return t.pair.slave.value; });
-    member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
-    member("touchNormal", rows, &Touch::normalForce);
-    member("touchTangent", rows, &Touch::tangentForce);
-    member("touchAllowed", rows, &Touch::toleratedGap);
+    member("touchSlave", rows, [](StoredContact& t) -> Index& { return t.pair.slave.value; });
+    member("touchMaster", rows, [](StoredContact& t) -> Index& { return t.pair.master.value; });
+    member("touchNormal", rows, &StoredContact::normalForce);
+    member("touchTangent", rows, &StoredContact::tangentForce);
+    member("touchAllowed", rows, &StoredContact::toleratedGap);
   }
 
   void search(World& world) {

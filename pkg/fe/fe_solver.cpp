@@ -14,8 +14,8 @@
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
 #include "entries/sphere_overlap.hpp"
-#include "fe/running.hpp"
 #include "integrator/curve_integrator.hpp"
+#include "publish/running.hpp"
 
 namespace yadefrag {
 

@@ -9,9 +9,9 @@
 #include "abi/yade.hpp"
 #include "entries/entry_bodies.hpp"
 #include "entries/sphere_contacts.hpp"
-#include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
+#include "materials/materials.hpp"
 #include "publish/published.hpp"
 #include "publish/step_lock.hpp"
 #include "rigid/rigid_bodies.hpp"
@@ -161,7 +161,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   SceneWatch around_;
   MaterialWatch materials_;
   RigidBodies rigid_;
-  GivenForces given_;
+  ContactReactions given_;
   SceneEnergy balance_;
   RollingSpheres rolling_;
   CrackContacts crackContacts_;

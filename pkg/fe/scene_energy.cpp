@@ -219,7 +219,7 @@ void SceneEnergy::begin(const yade::Scene& scene, const World& world, const Entr
     one.velocity = velocity, one.spin = state.angVel[2];
     one.isSettled = true;
   }
-  settle(touching_);
+  addWorks(touching_);
   // Overlaps that were there before the first step, or with a new body, are no energy of contact.
   for (const Touching& one : touching_)
     if (world.steps == 0 || wasAway || one.isPlaced)
@@ -227,7 +227,7 @@ void SceneEnergy::begin(const yade::Scene& scene, const World& world, const Entr
 }
 
 /// Adds the works of the last step, and the elastic energies between that step and this one.
-void SceneEnergy::settle(std::vector<Touching>& now) {
+void SceneEnergy::addWorks(std::vector<Touching>& now) {
   for (const Touching& one : former_) {
     const double normalWork = one.normal.work + one.normal.ownWork;
     const double tangentWork = one.tangent.work + one.tangent.ownWork;
@@ -257,7 +257,7 @@ void SceneEnergy::settle(std::vector<Touching>& now) {
   sums_.least = std::min(sums_.least, bySpheres());
 }
 
-void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenForces& given) {
+void SceneEnergy::end(const yade::Scene& scene, const World& world, const ContactReactions& given) {
   step_ = scene.iter;
   isOpen_ = false;
   const auto before = world.formerVelocities();
@@ -275,7 +275,7 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
     if (world.surfaces.isGone(piece.entry)) leave(piece);
   }
   std::map<yade::Body::id_t, std::size_t> rigid;
-  for (const GivenForces::Given& one : given.all()) {
+  for (const ContactReactions::Given& one : given.all()) {
     const yade::Body* body = bodyAt(scene, one.id);
     if (!body) continue;
     const auto [own, isNew] = rigid.emplace(one.id, touching_.size());

@@ -30,7 +30,7 @@ class SceneEnergy {
   void begin(const yade::Scene& scene, const World& world, const EntryBodies& entries,
              Integrator integrator);
   /// After it. `given`: forces on rigid boundaries.
-  void end(const yade::Scene& scene, const World& world, const GivenForces& given);
+  void end(const yade::Scene& scene, const World& world, const ContactReactions& given);
   /// The message about created energy; empty if there is none.
   [[nodiscard]] std::string message(const World& world);
   /// That about a sphere that may pass through a body.
@@ -94,7 +94,7 @@ class SceneEnergy {
                   EntryId entry, const yade::Interaction& contact, const yade::Body& piece,
                   std::vector<Touching>& found);
   void measureMotion(const yade::Scene& scene, const World& world);
-  void settle(std::vector<Touching>& now);
+  void addWorks(std::vector<Touching>& now);
   void noteOverlap(const World& world, const yade::Body& body, Touching& own, double depth,
                    double approach);
   [[nodiscard]] bool isBent(const World& world) const;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/tolerances/collider.hpp"
-#include "entries/surface_segment.hpp"
 #include "publish/gil.hpp"
+#include "segments/surface_segment.hpp"
 
 namespace yadefrag {
 

@@ -11,7 +11,7 @@
 #include "core/lanes.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
-#include "fe/running.hpp"
+#include "publish/running.hpp"
 
 namespace yadefrag {
 

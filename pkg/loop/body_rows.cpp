@@ -50,8 +50,8 @@ void BodyRows::read(const yade::Body& body, BodyRow& row) {
   row.setMotion(*body.state, radiusOf(body.shape.get()));
 }
 
-bool BodyRows::areHere(const yade::Scene& scene, const yade::Interaction& contact) {
-  return areHere(flagsOf(scene, bodyAt(scene.bodies->body, contact.id1)),
+bool BodyRows::isLocal(const yade::Scene& scene, const yade::Interaction& contact) {
+  return isLocal(flagsOf(scene, bodyAt(scene.bodies->body, contact.id1)),
                  flagsOf(scene, bodyAt(scene.bodies->body, contact.id2)));
 }
 

@@ -73,7 +73,7 @@ class BodyRows {
   /// Before `begin`: all rows are made anew in this step.
   void forget() { areValid_ = false; }
   /// True: both bodies of a contact exist, and one is of this process.
-  static bool areHere(const yade::Scene& scene, const yade::Interaction& contact);
+  static bool isLocal(const yade::Scene& scene, const yade::Interaction& contact);
   /// False: there is no body, or a script has taken its state or its shape.
   static bool hasMotion(const yade::Body* body) { return body && body->state && body->shape; }
   /// The motion of a body that exists, for a contact that is evaluated in place; not the sums.
@@ -99,8 +99,8 @@ class BodyRows {
     return {loadFour(orientations_[pair.row1].data()), loadFour(orientations_[pair.row2].data())};
   }
   /// True: both bodies exist, and one is of this process.
-  [[nodiscard]] bool areHere(const PairRows& pair) const {
-    return areHere(flags_[pair.row1], flags_[pair.row2]);
+  [[nodiscard]] bool isLocal(const PairRows& pair) const {
+    return isLocal(flags_[pair.row1], flags_[pair.row2]);
   }
 
   /// Adds to the sums of a row, or of an id.
@@ -150,7 +150,7 @@ class BodyRows {
   // Flags of a row.
   static constexpr unsigned kExists = 1, kIsHere = 2;
 
-  static bool areHere(unsigned flags1, unsigned flags2) {
+  static bool isLocal(unsigned flags1, unsigned flags2) {
     return (flags1 & flags2 & kExists) != 0 && ((flags1 | flags2) & kIsHere) != 0;
   }
   static unsigned flagsOf(const yade::Scene& scene, const yade::Body* body);

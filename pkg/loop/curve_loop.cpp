@@ -6,8 +6,8 @@
 #include "core/lanes.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
-#include "fe/running.hpp"
 #include "loop/known_laws.hpp"
+#include "publish/running.hpp"
 
 namespace yadefrag {
 
@@ -173,7 +173,7 @@ template <class Law>
   }
   requestAhead<Law>(place, size);
   PairRows& pair = rows_(place);
-  if (!rows_.areHere(pair)) {
+  if (!rows_.isLocal(pair)) {
     contact->reset();
     return false;
   }
@@ -182,7 +182,7 @@ template <class Law>
         evaluation.step.isFarApart(*contact, rows_[pair.row1], rows_[pair.row2])) {
       return false;
     }
-    return evaluateOther(evaluation, contact, pair);
+    return evaluateGeneral(evaluation, contact, pair);
   }
   ++evaluation.fast;
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
@@ -195,8 +195,8 @@ template <class Law>
 }
 
 template <class Law>
-bool ContactLoop::evaluateOther(Evaluation<Law>& evaluation, const Contact& contact,
-                                PairRows& pair) {
+bool ContactLoop::evaluateGeneral(Evaluation<Law>& evaluation, const Contact& contact,
+                                  PairRows& pair) {
   pair.matchOrder(*contact);
   const auto call = [&] {
     return evaluation.step.evaluate(contact, rows_[pair.row1], rows_[pair.row2], evaluation.fast,
@@ -215,7 +215,7 @@ bool ContactLoop::evaluateOther(Evaluation<Law>& evaluation, const Contact& cont
 template <class Law>
 bool ContactLoop::evaluateInPlace(Evaluation<Law>& evaluation, const Contact& contact) const {
   if (evaluation.step.computesGeometry() && evaluation.step.isFarApart(*contact)) return false;
-  if (!BodyRows::areHere(*scene, *contact)) {
+  if (!BodyRows::isLocal(*scene, *contact)) {
     contact->reset();
     return false;
   }

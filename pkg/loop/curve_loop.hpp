@@ -24,10 +24,11 @@ class ContactLoop : public yade::InteractionLoop {
     using yade::Attr::noSave;
     using yade::Attr::readonly;
     return attributeList(
-        attribute("fastGeometries", &C::fastGeometries,
-                  "Number of contacts in the last step whose geometry the loop computed itself; that "
-                  "of all others was computed by YADE's functors.",
-                  readonly | noSave),
+        attribute(
+            "fastGeometries", &C::fastGeometries,
+            "Number of contacts in the last step whose geometry the loop computed itself; that "
+            "of all others was computed by YADE's functors.",
+            readonly | noSave),
         attribute("fastForces", &C::fastForces,
                   "Number of contacts in the last step whose forces the loop computed itself; "
                   "those of all "
@@ -77,8 +78,8 @@ class ContactLoop : public yade::InteractionLoop {
   template <class Law>
   bool evaluateContact(Evaluation<Law>& evaluation, std::size_t place, std::size_t size);
   template <class Law>
-  [[gnu::noinline]] bool evaluateOther(Evaluation<Law>& evaluation, const Contact& contact,
-                                       PairRows& pair);
+  [[gnu::noinline]] bool evaluateGeneral(Evaluation<Law>& evaluation, const Contact& contact,
+                                         PairRows& pair);
   template <class Law>
   [[gnu::noinline]] bool evaluateInPlace(Evaluation<Law>& evaluation, const Contact& contact) const;
   void add(std::uint32_t row, const FourLanes& force, const FourLanes& torque, Part& part);

@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "loop/exposed.hpp"
+#include "abi/exposed.hpp"
 #include "memory/block_memory.hpp"
 
 namespace yadefrag {

@@ -4,13 +4,13 @@
 
 #include "collider/colliders.hpp"
 #include "core/lanes.hpp"
-#include "entries/surface_segment.hpp"
 #include "fe/fe_solver.hpp"
-#include "fe/materials.hpp"
-#include "fe/running.hpp"
 #include "integrator/curve_integrator.hpp"
 #include "loop/curve_loop.hpp"
+#include "materials/materials.hpp"
 #include "publish/publish.hpp"
+#include "publish/running.hpp"
+#include "segments/surface_segment.hpp"
 #ifdef YADE_OPENGL
 #include "view/body_picture.hpp"
 #endif

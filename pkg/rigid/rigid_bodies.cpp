@@ -52,7 +52,7 @@ yade::Body::id_t moverIdOf(const yade::Scene& scene, const yade::Body& body,
 bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted,
                          const yade::NewtonIntegrator* newton) {
   if (!wanted) {
-    if (any()) takeOut(scene, world, entries);
+    if (any()) remove(scene, world, entries);
     members_.clear();
     seen_ = 0;
     return false;
@@ -152,7 +152,7 @@ bool RigidBodies::areInPlace(const World& world, double dt) const {
   return true;
 }
 
-void RigidBodies::takeOut(yade::Scene& scene, World& world, EntryBodies& entries) {
+void RigidBodies::remove(yade::Scene& scene, World& world, EntryBodies& entries) {
   entries.removeRigid(scene, world);
   world.replaceRigid({}, {});
   corners_.clear();

@@ -40,7 +40,7 @@ class RigidBodies {
   void giveVelocities(yade::Scene& scene, World& world, const yade::NewtonIntegrator* newton);
   /// Adds the forces of the last step to YADE's bodies, with their moments.
   void giveForces(yade::Scene& scene, const World& world, const StepLength& length,
-                  GivenForces& given) const;
+                  ContactReactions& given) const;
   /// Gives a message if a smooth body rests on them with two points beside an arc that enters.
   void warnOfArcs(const World& world);
 
@@ -82,7 +82,7 @@ class RigidBodies {
   void startMoving(const yade::Scene& scene, World& world) const;
   [[nodiscard]] FormerCorners formerCorners(const yade::Scene& scene, const World& world) const;
   void addCorners(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf);
-  void takeOut(yade::Scene& scene, World& world, EntryBodies& entries);
+  void remove(yade::Scene& scene, World& world, EntryBodies& entries);
   [[nodiscard]] bool slideWalls(World& world);
   [[nodiscard]] const RigidCorner& cornerOf(const World& world, EntryId entry) const;
   void warnOfUnmoved();

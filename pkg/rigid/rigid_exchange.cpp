@@ -69,7 +69,7 @@ const RigidCorner& RigidBodies::cornerOf(const World& world, EntryId entry) cons
 }
 
 void RigidBodies::giveForces(yade::Scene& scene, const World& world, const StepLength& length,
-                             GivenForces& given) const {
+                             ContactReactions& given) const {
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
   const auto isRigid = [&](EntryId entry) {

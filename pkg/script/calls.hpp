@@ -11,8 +11,8 @@
 #include "abi/yade.hpp"
 #include "core/errors.hpp"
 #include "fe/fe_solver.hpp"
-#include "fe/running.hpp"
 #include "meshing/triangulate.hpp"
+#include "publish/running.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {

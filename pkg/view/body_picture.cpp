@@ -8,9 +8,9 @@
 #include <mutex>
 
 #include "dynamics/element_state.hpp"
-#include "entries/surface_segment.hpp"
 #include "fe/fe_solver.hpp"
 #include "script/fragments.hpp"
+#include "segments/surface_segment.hpp"
 
 namespace yadefrag {
 

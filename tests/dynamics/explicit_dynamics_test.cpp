@@ -82,7 +82,7 @@ TEST(ExplicitDynamics, AStepThatTurnsAnElementInsideOutIsTakenBack) {
       test::saidBy<RunError>([&] { run.dynamics.requireUpright(run.model, run.dt, 0); });
   EXPECT_NE(message.find("of component 0 at ("), std::string::npos) << message;
   EXPECT_NE(message.find(" is inverted in a step of"), std::string::npos) << message;
-  run.dynamics.takeBack(run.model);
+  run.dynamics.undo(run.model);
   EXPECT_TRUE(sameState(run.model, before));
 }
 

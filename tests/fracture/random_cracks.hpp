@@ -250,7 +250,7 @@ inline void checkPieces(const Model& model, const CrackEdges& edges, const Conta
     const Component& body = model.components[model.triangles.component[e].value];
     if (!body.brittle.cracks()) byEdge.join(body.firstTriangle, e);
   }
-  const std::uint32_t pieces = 1 + *std::ranges::max_element(byNode);
+  const std::uint32_t pieces = byNode.empty() ? 0 : 1 + *std::ranges::max_element(byNode);
   const std::size_t doubled = 3 * model.triangles.size() + boundary.size();
   ASSERT_EQ(model.nodes.size() + model.triangles.size() + countLists(s.segmentNext),
             doubled / 2 + 2 * pieces);

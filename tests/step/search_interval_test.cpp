@@ -13,7 +13,7 @@
 #include "core/tolerances/step.hpp"
 #include "outline/polygon.hpp"
 #include "step/bodies.hpp"
-#include "step/halo_watch.hpp"
+#include "step/search_schedule.hpp"
 
 namespace yadefrag::test {
 namespace {

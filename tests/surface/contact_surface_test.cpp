@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/pass_rule.hpp"
-#include "step/halo_watch.hpp"
+#include "step/search_schedule.hpp"
 #include "surface/contact_surface.hpp"
 #include "surface_checks.hpp"
 

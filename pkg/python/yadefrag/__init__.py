@@ -42,7 +42,7 @@ from yadefrag.fe.geometry import circle, grainJoints, rectangle, ring, voronoi  
 from yadefrag.fe.mesh import Mesh, polygonMesh, rectangleMesh
 from yadefrag.fe.neighbours import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
-from yadefrag.messages import inWords  # noqa: E402
+from yadefrag.messages import checkedCall  # noqa: E402
 from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
 from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
 from yadefrag.scene import guards, lifecycle, mpy  # noqa: E402
@@ -81,8 +81,8 @@ __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMe
             'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture', 'plotFracture', 'crackTable',
             'engines', 'FERecorder', 'tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
 for _name in __all__:
-    if type(globals()[_name]) is type(inWords):
-        _function = inWords(globals()[_name])
+    if type(globals()[_name]) is type(checkedCall):
+        _function = checkedCall(globals()[_name])
         for _part in (sys.modules[__name__], io, plots, studies):
             if hasattr(_part, _name):
                 setattr(_part, _name, _function)

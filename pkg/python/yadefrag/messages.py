@@ -105,7 +105,7 @@ def _inWords(what, known):
     return 'the %s %s' % (what, ', '.join(map(str, known[:_LISTED]))) + ' and others' * (len(known) > _LISTED)
 
 
-def inWords(function: Callable, arranged: Callable[..., tuple[tuple, dict[str, Any]]] | None = None) -> Callable:
+def checkedCall(function: Callable, arranged: Callable[..., tuple[tuple, dict[str, Any]]] | None = None) -> Callable:
     """`function`, with a sentence as TypeError for arguments that are missing, unknown or too many.
 
     arranged  None, or a function of the arguments by position → (arguments by position, dict of others)

@@ -296,7 +296,8 @@ def test_bits(name, kind, build):
     loop = requireSameWith(one, options, 80 if build is denseHeap else 700, build=build)
     contacts = [i.phys for i in O.interactions]
     assert build is heap or len(O.interactions) > len(O.bodies) and loop.fastGeometries > .5 * len(contacts)
-    assert loop.fastForces == len(contacts) >= loop.fastGeometries
+    # A contact may end after its geometry.
+    assert len(contacts) == loop.fastForces >= loop.fastGeometries - 3
     # The options do something.
     values, properties, law, sphere = options
     one.check(contacts, dict(values, **(sphere if name == 'mindlin' and 'neverErase' in law else {})), properties, law)
@@ -423,7 +424,7 @@ def test_report():
     assert sum(int(line.split()[0]) for line in lines) == O.interactions.countReal()
     assert any(line.endswith('of Sphere and Sphere: geometry by the loop, force by the loop, as '
                              'Law2_ScGeom_MindlinPhys_Mindlin.') for line in lines)
-    assert any('Facet and Sphere: geometry by YADE\'s Ig2_Facet_Sphere_ScGeom, force by the loop' in line for line in lines)
+    assert any('Facet and Sphere: geometry by the loop, force by the loop' in line for line in lines)
     loop, _ = run('CurveLoop', [*functors(mindlin, plain)[:2], [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]], 100)
     assert 'HertzWithLinearShear, which the loop does not know.' in loop.report()
     loop.loopOnSortedInteractions = True

@@ -17,7 +17,7 @@ from yadefrag.arguments import (ArrayLike, ByPlace, FESolver, array, flag, listO
 from yadefrag.fe.geometry import holesOf, rectangle, simplified
 from yadefrag.fe.mesh_values import isClockwise, isField, mayCrack, smoothFlags, smoothNodes
 from yadefrag.io.mesh_files import MeshFile, requireApart
-from yadefrag.messages import inWords, warn
+from yadefrag.messages import checkedCall, warn
 
 _fill = Mesh.__init__  # from checked arrays
 _SPACING = .2  # of the size: nearer vertices of the neighbours give one vertex
@@ -118,7 +118,7 @@ def _reduce(self):
 
 
 _init.__name__ = 'Mesh'
-Mesh.__init__ = inWords(_init)
+Mesh.__init__ = checkedCall(_init)
 Mesh.__iter__ = lambda self: iter((self.nodes, self.triangles))
 Mesh.__getitem__ = lambda self, index: (self.nodes, self.triangles)[index]
 Mesh.__len__ = lambda self: 2

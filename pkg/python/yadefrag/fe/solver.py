@@ -24,7 +24,7 @@ from yadefrag.fe.mesh_values import (Materials, brittlePlaces, field, heldNodes,
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.neighbours import Overlap, addSnapped, bond, bondAll, snapTolerance, tellCostly, tellJoined
 from yadefrag.io.mesh_files import MeshFile
-from yadefrag.messages import forget, inWords, noteFixed, warnOfOne
+from yadefrag.messages import forget, checkedCall, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
 _ELEMENTS = ('linear', 'smoothed')
@@ -269,10 +269,10 @@ def _minAngle(self):
 
 def install() -> None:
     """Adds the methods to FESolver."""
-    wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
+    wrapper.FESolver.addPolygon = checkedCall(addPolygon, _arrangedPolygon)
     for method in (addMesh, addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb,
                    relax, reaction, contactForce, meshQuality):
-        setattr(wrapper.FESolver, method.__name__, inWords(method))
+        setattr(wrapper.FESolver, method.__name__, checkedCall(method))
     for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle),
                        ('energy', energy)):
         setattr(wrapper.FESolver, name, property(read, doc=read.__doc__))

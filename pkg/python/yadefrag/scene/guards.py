@@ -15,7 +15,7 @@ from yade import wrapper
 from yade.minieigenHP import Vector3
 from yadefrag.arguments import flag, isWhole, numbersOf, plain, refuse, shown
 from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
-from yadefrag.messages import inWords
+from yadefrag.messages import checkedCall
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
@@ -232,5 +232,5 @@ def guardSolver() -> None:
 
     guardedFragments.__qualname__ = 'FESolver.fragments'
     for method in (removeBody, guardedFragments, alone(solver.deepestOverlap), alone(solver.criticalTimeStep)):
-        setattr(solver, method.__name__, inWords(method))
+        setattr(solver, method.__name__, checkedCall(method))
     solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abi/yade.hpp"
-#include "fe/choices.hpp"
+#include "materials/choices.hpp"
 #include "mesh/body_material.hpp"
 #include "publish/published.hpp"
 

@@ -1,4 +1,4 @@
-#include "fe/materials.hpp"
+#include "materials/materials.hpp"
 
 #include <fmt/core.h>
 

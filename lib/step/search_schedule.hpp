@@ -93,7 +93,7 @@ struct SearchState {
   void makeVoid() { validity = Validity::kVoid; }
 };
 
-class HaloWatch : public SearchState {
+class SearchSchedule : public SearchState {
  public:
   /// The data that are checked, and those that a search changes.
   struct Scene {
@@ -116,7 +116,7 @@ class HaloWatch : public SearchState {
   // --- in the order of a step
   void begin();
   /// Before the step moves nodes.
-  void foreseeMotion(const Scene& scene, double dt);
+  void boundMotion(const Scene& scene, double dt);
   /// Uses x*.
   void measureMove(const Scene& scene, double dt);
   /// At x*, if a node has left the halo.
@@ -126,7 +126,7 @@ class HaloWatch : public SearchState {
   /// With xⁿ⁺¹: predicts whether the next step may leave the halo.
   void foreseeSearch(const Scene& scene, double dt);
   /// Restores the state at `begin`, for a refused step. Allocates no memory.
-  void takeBack(const Scene& scene);
+  void undo(const Scene& scene);
 
   /// (m) Margin of bounds that a collider makes now, for contact with bodies that are not part of
   /// the world: up to the next search no checked node moves farther from its present position. 0

@@ -1,4 +1,4 @@
-#include "fe/choices.hpp"
+#include "materials/choices.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "fe/running.hpp"
+#include "publish/running.hpp"
 
 #include <unwind.h>
 

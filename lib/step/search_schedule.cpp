@@ -1,4 +1,4 @@
-#include "step/halo_watch.hpp"
+#include "step/search_schedule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
   return std::isfinite(least) ? std::sqrt(least) : 0;
 }
 
-void HaloWatch::rebuild(const Scene& scene) {
+void SearchSchedule::rebuild(const Scene& scene) {
   if (isVoid() && scene.canTouch) watchAll(scene);
   const SearchBounds bounds = std::exchange(loaded, {});
   if (scene.canTouch) {
@@ -43,34 +43,34 @@ void HaloWatch::rebuild(const Scene& scene) {
   motion_.farthest = bounds.farthest;
 }
 
-void HaloWatch::invalidate() {
+void SearchSchedule::invalidate() {
   nodes.clear();
   positions.clear();
   makeVoid();
   loaded = {};
 }
 
-void HaloWatch::begin() {
+void SearchSchedule::begin() {
   former_.motion = motion_;
   former_.hasSearched = former_.hasCandidates = false;
   former_.candidates.clear();
 }
 
 /// Stores the state before the step changes the checked nodes or the candidates.
-void HaloWatch::keep() {
+void SearchSchedule::keep() {
   if (former_.hasSearched) return;
   former_.search = *this;
   former_.hasSearched = true;
 }
 
-void HaloWatch::takeBack(const Scene& scene) {
+void SearchSchedule::undo(const Scene& scene) {
   if (former_.hasSearched && !former_.hasCandidates) search_.reset();  // it may be incomplete
   if (former_.hasCandidates) scene.contact.candidates = std::move(former_.candidates);
   if (former_.hasSearched) std::swap(static_cast<SearchState&>(*this), former_.search);
   motion_ = former_.motion;
 }
 
-void HaloWatch::watchAll(const Scene& scene) {
+void SearchSchedule::watchAll(const Scene& scene) {
   nodes.clear();
   for (const NodeId node : scene.surfaces.segmentNode)
     if (scene.model.nodes.mass[node.value] > 0) nodes.push_back(node);
@@ -78,7 +78,7 @@ void HaloWatch::watchAll(const Scene& scene) {
 }
 
 /// Bounds of the displacements, before the step moves nodes.
-void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
+void SearchSchedule::boundMotion(const Scene& scene, double dt) {
   if (!scene.canTouch) return;
   const StageTimer timer(scene.times, &StageTimes::search);
   const double most = scene.dynamics.speedLimit() * dt;
@@ -88,7 +88,7 @@ void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
 }
 
 /// Uses x*. If no node is faster than predicted, a quiet step needs no check of the nodes.
-void HaloWatch::measureMove(const Scene& scene, double dt) {
+void SearchSchedule::measureMove(const Scene& scene, double dt) {
   const StageTimer timer(scene.times, &StageTimes::search);
   if (scene.dynamics.anyAboveSpeedLimit()) {
     updateSpeedLimit(scene, dt);
@@ -111,7 +111,7 @@ void HaloWatch::measureMove(const Scene& scene, double dt) {
 }
 
 /// Determines the largest speed of all nodes, and sets the limit that the next steps check.
-void HaloWatch::updateSpeedLimit(const Scene& scene, double dt) {
+void SearchSchedule::updateSpeedLimit(const Scene& scene, double dt) {
   double most = 0;
   for (const Vec2 velocity : scene.model.nodes.velocity)
     most = std::max(most, dot(velocity, velocity));
@@ -121,7 +121,7 @@ void HaloWatch::updateSpeedLimit(const Scene& scene, double dt) {
 }
 
 /// Predicts whether the next step may leave the halo.
-void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
+void SearchSchedule::foreseeSearch(const Scene& scene, double dt) {
   if (isDue()) return;
   const StageTimer timer(scene.times, &StageTimes::search);
   const double most = motion_.largest + scene.contact.largestCorrection();
@@ -140,7 +140,7 @@ void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
 /// (m) δ for the next kHaloSteps steps with displacements of `move` (m), at most half the shortest
 /// segment (§4.1), or the given value; wider only for bodies so fast that they would leave it at
 /// once.
-double HaloWatch::wideHalo(const ContactSettings& settings, double move) const {
+double SearchSchedule::wideHalo(const ContactSettings& settings, double move) const {
   const double wanted = settings.halo > 0 ? settings.halo * shortest
                                           : std::clamp(tolerance::kHaloSteps * move,
                                                        tolerance::kNarrowestHalo * shortest,
@@ -149,12 +149,12 @@ double HaloWatch::wideHalo(const ContactSettings& settings, double move) const {
 }
 
 /// As wide as this step's own displacement demands.
-void HaloWatch::chooseHalo(const Scene& scene) {
+void SearchSchedule::chooseHalo(const Scene& scene) {
   shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
   halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
 }
 
-void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
+void SearchSchedule::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
   passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings, scene.hasRigid);
   pairs_.clear();
   selectPairs(scene.model, scene.surfaces, passRule_, scene.model.nodes.position, halo, overlapping,
@@ -173,7 +173,7 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
 }
 
 /// No contact is missed: independently of predictions, x* is decisive.
-void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
+void SearchSchedule::searchIfLeft(const Scene& scene, double dt) {
   const StageTimer timer(scene.times, &StageTimes::search);
   if (isDue()) return searchNow(scene, dt);
   if (motion_.farthest <= halo / 2) return;
@@ -187,7 +187,7 @@ void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
 }
 
 /// The search, at x*: boxes of all entries, update of the position codes, pairs.
-void HaloWatch::searchNow(const Scene& scene, double dt) {
+void SearchSchedule::searchNow(const Scene& scene, double dt) {
   keep();
   chooseHalo(scene);
   updateSpeedLimit(scene, dt);
@@ -206,14 +206,14 @@ void HaloWatch::searchNow(const Scene& scene, double dt) {
   considerPairs(scene, overlapping_);
 }
 
-void HaloWatch::addCorrection(double most) { motion_.farthest += most; }
+void SearchSchedule::addCorrection(double most) { motion_.farthest += most; }
 
-void HaloWatch::appear(NodeId node, Vec2 place) {
+void SearchSchedule::appear(NodeId node, Vec2 place) {
   nodes.push_back(node);
   positions.push_back(place);
 }
 
-void HaloWatch::removeDropped(const Model& model) {
+void SearchSchedule::removeDropped(const Model& model) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (model.nodes.mass[nodes[i].value] == 0) continue;
@@ -224,7 +224,7 @@ void HaloWatch::removeDropped(const Model& model) {
   positions.resize(kept);
 }
 
-void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const SurfaceSide> sides) {
+void SearchSchedule::addCandidatesAround(const Scene& scene, std::span<const SurfaceSide> sides) {
   const std::vector<Vec2>& places = scene.model.nodes.position;
   scene.contact.candidates.index(scene.surfaces.entries());
   const std::vector<EntryId> around =

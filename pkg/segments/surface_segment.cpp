@@ -1,4 +1,4 @@
-#include "entries/surface_segment.hpp"
+#include "segments/surface_segment.hpp"
 
 #include <algorithm>
 
