@@ -9,17 +9,8 @@
 
 namespace yadefrag {
 
-/// How a step turns such bodies.
-struct RotationStep {
-  double dt;  // s
-  double damping;
-  bool scalesDensity;
-  bool isByMomentum;  // Fincham; otherwise del Valle
-  bool normalizes;    // orientations, in this step
-};
-
 /// Cundall's damping of a torque.
-inline void dampTorque(const RotationStep& step, const yade::State& state, yade::Vector3r& torque) {
+inline void dampTorque(const MotionStep& step, const yade::State& state, yade::Vector3r& torque) {
   if (!state.isDamped) return;
   for (int i = 0; i < 3; ++i) {
     const double power = torque[i] * state.angVel[i];
@@ -38,7 +29,7 @@ inline yade::Quaternionr orientationRate(const yade::Vector3r& spin, const yade:
 }
 
 /// Fincham 1992 (YADE's Allen 1989, p. 89): from the angular momentum, by a half step.
-inline void turnByMomentum(const RotationStep& step, const yade::Vector3r& torque,
+inline void turnByMomentum(const MotionStep& step, const yade::Vector3r& torque,
                            yade::State& state) {
   using yade::Matrix3r, yade::Quaternionr, yade::Vector3r;
   Quaternionr& orientation = state.se3.orientation;
@@ -68,7 +59,7 @@ inline yade::Vector3r eulerRate(const yade::Vector3r& spin, const yade::Vector3r
 }
 
 /// del Valle 2023, equation (9).
-inline void turnBySpin(const RotationStep& step, const yade::Vector3r& torque, yade::State& state) {
+inline void turnBySpin(const MotionStep& step, const yade::Vector3r& torque, yade::State& state) {
   using yade::Matrix3r, yade::Quaternionr, yade::Vector3r;
   Quaternionr& orientation = state.se3.orientation;
   const Vector3r& inertia = state.inertia;

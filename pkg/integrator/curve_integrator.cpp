@@ -69,6 +69,10 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   step.velGradChange = (isChanged ? cell.nextVelGrad : cell.velGrad) - prevVelGrad;
   const yade::Matrix3r turn = .5 * (step.velGradChange - step.velGradChange.transpose());
   step.spinChange = FourLanes{-turn(1, 2), turn(0, 2), -turn(0, 1), 0};
+#if YADEFRAG_YADE >= 202502
+  step.turnsByMomentum = rotAlgorithm == RotAlgorithm::Fincham1992;
+  step.normalizes = normalizeEvery != 0 && scene->iter % normalizeEvery == 0;
+#endif
 }
 
 [[gnu::always_inline]] inline bool MotionIntegrator::turnsAsSphere(const yade::Body& body) const {
@@ -77,18 +81,8 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   return !(isAspherical && exactAsphericalRot && (body.state->blockedDOFs & kRotations) == 0);
 }
 
-RotationStep MotionIntegrator::rotationStep(const MotionStep& step) const {
-  RotationStep rotation{step.dt, step.damping, step.scalesDensity, true, true};
-#if YADEFRAG_YADE >= 202502
-  rotation.isByMomentum = rotAlgorithm == RotAlgorithm::Fincham1992;
-  rotation.normalizes = scene->iter % normalizeEvery == 0;
-#endif
-  return rotation;
-}
-
 // False: there is a body that YADE's functions would report.
 bool MotionIntegrator::findMembers(const yade::Clump& clump, std::vector<Member>& members) const {
-  members.clear();
   for (const auto& [id, local] : clump.members) {
     const yade::Body* const body = bodyAt(scene->bodies->body, id);
     if (!body || !forces_.has(static_cast<std::size_t>(id))) return false;
@@ -148,13 +142,11 @@ bool MotionIntegrator::findMembers(const yade::Clump& clump, std::vector<Member>
     changePlace(step, force, torque, state);
     changeOrientation(step.dt, state);
   } else {
-    const RotationStep rotation = rotationStep(step);
     yade::Vector3r about;
     storeThree(torque, about.data());
     changePlace<false>(step, force, torque, state);
-    dampTorque(rotation, state, about);
-    rotation.isByMomentum ? turnByMomentum(rotation, about, state)
-                          : turnBySpin(rotation, about, state);
+    dampTorque(step, state, about);
+    step.turnsByMomentum ? turnByMomentum(step, about, state) : turnBySpin(step, about, state);
   }
   const auto note = [&](const yade::Body& moved) {
     if (moved.bound && isBeyondBound(*moved.bound, *moved.state)) part.isAnyBeyond = true;

@@ -101,7 +101,6 @@ class MotionIntegrator : public yade::NewtonIntegrator {
   };
 
   void readStep(MotionStep& step) const;
-  [[nodiscard]] RotationStep rotationStep(const MotionStep& step) const;
   [[nodiscard]] bool turnsAsSphere(const yade::Body& body) const;
   bool findMembers(const yade::Clump& clump, std::vector<Member>& members) const;
   [[nodiscard]] Way wayOf(const yade::Body& body) const;

@@ -22,6 +22,9 @@ struct MotionStep {
   yade::Matrix3r prevVelGrad;    // 1/s, of the step before
   yade::Matrix3r velGradChange;  // 1/s
   FourLanes spinChange;          // rad/s, of the cell
+  // Of bodies with three different moments of inertia:
+  bool turnsByMomentum = true;  // Fincham; otherwise del Valle
+  bool normalizes = true;       // orientations, in this step, by del Valle
 };
 
 /// Product with a vector, with Eigen's order of additions.
