@@ -25,9 +25,8 @@ PairFunctors::PairFunctors(yade::InteractionLoop& loop, yade::Scene& scene,
       spheres_(spheres),
       properties_(properties),
       law_(law),
-      shapes_(*loop.geomDispatcher,
-              spheres && typeid(*spheres) == typeid(yade::Ig2_Sphere_Sphere_ScGeom6D)),
-      hasRotations_(spheres && typeid(*spheres) == typeid(yade::Ig2_Sphere_Sphere_ScGeom6D)) {
+      hasRotations_(spheres && typeid(*spheres) == typeid(yade::Ig2_Sphere_Sphere_ScGeom6D)),
+      shapes_(*loop.geomDispatcher, hasRotations_) {
   for (const auto& callback : loop.callbacks) {
     callback->scene = &scene;
     if (const auto function = callback->stepInit()) {

@@ -24,7 +24,7 @@ class PairFunctors {
   /// What determines which contacts the loop computes.
   using Functors = std::array<const void*, 6>;
   [[nodiscard]] Functors functors() const {
-    const auto& [facet, wall, box] = shapes_.functors();
+    const auto [facet, wall, box] = shapes_.functors();
     return isAllKnown_ ? Functors{spheres_, properties_, law_, facet, wall, box} : Functors{};
   }
   /// False: YADE's functors compute all geometries.
@@ -129,8 +129,8 @@ class PairFunctors {
   const yade::Ig2_Sphere_Sphere_ScGeom* spheres_;
   const yade::IPhysFunctor* properties_;
   const yade::LawFunctor* law_;
-  ShapeContacts shapes_;
   bool hasRotations_;  // of its geometry: YADE's functor is called for one that is not known
+  ShapeContacts shapes_;
   std::vector<std::pair<yade::IntrCallback*, yade::IntrCallback::FuncPtr>> callbacks_;
   bool removesUnseen_;
   bool isAllKnown_;

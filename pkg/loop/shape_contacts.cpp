@@ -31,23 +31,22 @@ double boxRadius(const yade::Ig2_Box_Sphere_ScGeom& functor, double radius) {
 
 ShapeContacts::ShapeContacts(const yade::IGeomDispatcher& dispatcher, bool haveRotations) {
   const auto& all = dispatcher.functors;
-  const yade::Ig2_Facet_Sphere_ScGeom* facet = nullptr;
   if (haveRotations) {
-    facet = exactly<yade::Ig2_Facet_Sphere_ScGeom6D>(all);
-    functors_[kBox] = exactly<yade::Ig2_Box_Sphere_ScGeom6D>(all);
+    facet_ = exactly<yade::Ig2_Facet_Sphere_ScGeom6D>(all);
+    box_ = exactly<yade::Ig2_Box_Sphere_ScGeom6D>(all);
   } else {
-    facet = exactly<yade::Ig2_Facet_Sphere_ScGeom>(all);
-    functors_[kWall] = exactly<yade::Ig2_Wall_Sphere_ScGeom>(all);
-    functors_[kBox] = exactly<yade::Ig2_Box_Sphere_ScGeom>(all);
+    facet_ = exactly<yade::Ig2_Facet_Sphere_ScGeom>(all);
+    wall_ = exactly<yade::Ig2_Wall_Sphere_ScGeom>(all);
+    box_ = exactly<yade::Ig2_Box_Sphere_ScGeom>(all);
   }
   // YADE's functor may warn of its factor, and change it.
-  if (facet && facet->shrinkFactor == 0) functors_[kFacet] = facet;
+  if (facet_ && facet_->shrinkFactor != 0) facet_ = nullptr;
 }
 
 bool ShapeContacts::isShapeOf(const yade::IGeomFunctor* functor, const yade::Body& body) const {
   const yade::Shape& shape = *body.shape;
-  if (functor == functors_[kFacet]) return typeid(shape) == typeid(yade::Facet);
-  if (functor == functors_[kWall]) return typeid(shape) == typeid(yade::Wall);
+  if (functor == facet_) return typeid(shape) == typeid(yade::Facet);
+  if (functor == wall_) return typeid(shape) == typeid(yade::Wall);
   return typeid(shape) == typeid(yade::Box);
 }
 
@@ -72,8 +71,8 @@ std::optional<ShapeContacts::Touch> ShapeContacts::find(const yade::IGeomFunctor
                                                         bool isReal) const {
   Vector3r centre;
   storeThree(sphere.position() + shift.distance, centre.data());
-  if (functor == functors_[kFacet]) return onFacet(body, centre, sphere.radius(), isReal);
-  if (functor == functors_[kWall]) return onWall(body, centre, sphere.radius(), isReal);
+  if (functor == facet_) return onFacet(body, centre, sphere.radius(), isReal);
+  if (functor == wall_) return onWall(body, centre, sphere.radius(), isReal);
   return onBox(body, sphere, centre, isReal);
 }
 
@@ -117,9 +116,7 @@ std::optional<ShapeContacts::Touch> ShapeContacts::onFacet(const yade::Body& bod
   if (!(touch.depth > 0) && !isReal) return {};
   touch.normal = axes * normal;
   touch.point = centre - (radius - .5 * touch.depth) * touch.normal;
-  const bool isHertzian =
-      static_cast<const yade::Ig2_Facet_Sphere_ScGeom*>(functors_[kFacet])->hertzian;
-  touch.radius1 = isHertzian ? kHertzian * radius : 2 * radius;
+  touch.radius1 = facet_->hertzian ? kHertzian * radius : 2 * radius;
   return touch;
 }
 
@@ -127,7 +124,6 @@ std::optional<ShapeContacts::Touch> ShapeContacts::onWall(const yade::Body& body
                                                           const Vector3r& centre, double radius,
                                                           bool isReal) const {
   const auto& wall = shapeOf<yade::Wall>(body);
-  const auto& functor = static_cast<const yade::Ig2_Wall_Sphere_ScGeom&>(*functors_[kWall]);
   const double distance = centre[wall.axis] - body.state->se3.position[wall.axis];
   if (!isReal && std::abs(distance) > radius) return {};
   Touch touch{};
@@ -137,8 +133,8 @@ std::optional<ShapeContacts::Touch> ShapeContacts::onWall(const yade::Body& body
   const bool isAbove = wall.sense == 0 ? distance > 0 : wall.sense == 1;
   touch.normal[wall.axis] = isAbove ? 1 : -1;
   touch.depth = -(std::abs(distance) - radius);
-  touch.radius1 = functor.hertzian ? kHertzian * radius : radius;
-  touch.avoidsRatcheting = functor.noRatch;
+  touch.radius1 = wall_->hertzian ? kHertzian * radius : radius;
+  touch.avoidsRatcheting = wall_->noRatch;
   return touch;
 }
 
@@ -146,7 +142,6 @@ std::optional<ShapeContacts::Touch> ShapeContacts::onBox(const yade::Body& body,
                                                          const BodyRow& sphere,
                                                          const Vector3r& centre,
                                                          bool isReal) const {
-  const auto& functor = static_cast<const yade::Ig2_Box_Sphere_ScGeom&>(*functors_[kBox]);
   const Vector3r& half = shapeOf<yade::Box>(body).extents;
   const double radius = sphere.radius();
   const Matrix3r axes = body.state->se3.orientation.toRotationMatrix();
@@ -159,7 +154,7 @@ std::optional<ShapeContacts::Touch> ShapeContacts::onBox(const yade::Body& body,
     if (nearest[i] > half[i]) nearest[i] = half[i], isInside = false;
   }
   Touch touch{};
-  touch.radius1 = boxRadius(functor, radius);
+  touch.radius1 = boxRadius(*box_, radius);
   if (isInside) {
     // Through the nearest side.
     int side = 0;
@@ -186,7 +181,7 @@ std::optional<ShapeContacts::Touch> ShapeContacts::onBox(const yade::Body& body,
   const Vector3r onBox = axes * nearest;
   Vector3r toBox = onBox - between;
   touch.depth = radius - toBox.norm();
-  if (-touch.depth > radius * (functor.interactionDetectionFactor - 1.) && !isReal) return {};
+  if (-touch.depth > radius * (box_->interactionDetectionFactor - 1.) && !isReal) return {};
   toBox.normalize();
   touch.point = .5 * ((onBox + body.state->se3.position) + (centre + toBox * radius));
   touch.normal = -toBox;

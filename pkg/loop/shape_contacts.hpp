@@ -19,11 +19,10 @@ class ShapeContacts {
   /// The functors of `dispatcher` whose geometry is a ScGeom6D, or a ScGeom.
   ShapeContacts(const yade::IGeomDispatcher& dispatcher, bool haveRotations);
 
-  [[nodiscard]] const Functors& functors() const { return functors_; }
+  [[nodiscard]] Functors functors() const { return {facet_, wall_, box_}; }
   /// True: `functor` is one of them.
   [[nodiscard]] bool know(const yade::IGeomFunctor* functor) const {
-    return functor && (functor == functors_[kFacet] || functor == functors_[kWall] ||
-                       functor == functors_[kBox]);
+    return functor && (functor == facet_ || functor == wall_ || functor == box_);
   }
   /// False: the first body has another shape than its functor needs.
   [[nodiscard]] bool isShapeOf(const yade::IGeomFunctor* functor, const yade::Body& body) const;
@@ -39,7 +38,6 @@ class ShapeContacts {
                                      double dt) const;
 
  private:
-  enum Kind : std::uint8_t { kFacet, kWall, kBox };
   /// Where the two shapes touch.
   struct Touch {
     yade::Vector3r normal, point;
@@ -58,7 +56,10 @@ class ShapeContacts {
   [[nodiscard]] std::optional<Touch> onBox(const yade::Body& body, const BodyRow& sphere,
                                            const yade::Vector3r& centre, bool isReal) const;
 
-  Functors functors_ = {};
+  // Null: there is none, or YADE's must be called.
+  const yade::Ig2_Facet_Sphere_ScGeom* facet_ = nullptr;
+  const yade::Ig2_Wall_Sphere_ScGeom* wall_ = nullptr;
+  const yade::Ig2_Box_Sphere_ScGeom* box_ = nullptr;
 };
 
 }  // namespace yadefrag
