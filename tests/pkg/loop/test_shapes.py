@@ -8,7 +8,7 @@ from yade import utils
 from yade.minieigenHP import Quaternion, Vector3
 
 import scenes
-from test_laws import requireSame
+from loop_twins import geometries, requireSame
 from scenes import O
 
 kShapes = dict(
@@ -57,9 +57,7 @@ def scattered(facets=0, boxes=0, walls=False, periodic=False, apart=0, seed=1, m
 
 def functors(suffix='', law=None, **options):
     """`options`: attributes of the functors of a shape, by its name."""
-    names = ['Facet', 'Box'] if suffix else ['Facet', 'Wall', 'Box']
-    geometry = [getattr(w, 'Ig2_Sphere_Sphere_ScGeom' + suffix)(),
-                *(getattr(w, 'Ig2_%s_Sphere_ScGeom%s' % (name, suffix))(**options.get(name, {})) for name in names)]
+    geometry = geometries(suffix, options)
     if law:
         return geometry, [law[0]()], [law[1]()]
     return geometry, [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
