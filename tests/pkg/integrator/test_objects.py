@@ -86,10 +86,6 @@ class Script:
         contact = self.contact()
         self.keep((contact.id1, contact.id2), name)
 
-    def remark(self, number, name):
-        setattr(here(number, name), 'remark', 3)
-        self.keep(number, (name + '.remark').lstrip('.'))
-
     def ownClass(self, cls, make, owner, name):
         setattr(owner, name, make)
         self.places.append((owner.id if name != 'phys' else (owner.id1, owner.id2), name, cls))
@@ -140,7 +136,7 @@ ACTIONS = {
     'state replaced': lambda s: (b := s.body()) and setattr(b, 'state', fresh(w.State, b.state)),
     'state of a class': lambda s: (b := s.body()) and s.ownClass(Tracked, fresh(Tracked, b.state), b, 'state'),
     'state kept': lambda s: s.keep(s.body().id, 'state'),
-    'state with an attribute': lambda s: s.remark(s.body().id, 'state'),
+    'state with an attribute': lambda s: setattr(s.body().state, 'remark', 3),
     'material replaced': lambda s: setattr(s.body(), 'material', w.FrictMat(young=2e7, density=2000)),
     'bound kept': lambda s: s.keep(s.body().id, 'bound'),
     'body erased': lambda s: O.bodies.erase(s.body().id),
@@ -148,7 +144,7 @@ ACTIONS = {
     'body kept and erased': lambda s: (b := s.body()) and s.keep(b.id) or O.bodies.erase(b.id),
     'body appended': lambda s: s.append(),
     'body of a class': lambda s: s.places.append((s.append(Grain), '', Grain)),
-    'body with an attribute': lambda s: s.remark(s.body().id, ''),
+    'body with an attribute': lambda s: setattr(s.body(), 'remark', 4),
     'id used again': lambda s: s.reuse(),
     'clump': lambda s: s.clump(),
     'fixed': lambda s: setattr(s.body(), 'dynamic', False),
@@ -181,6 +177,14 @@ ACTIONS = {
 KINDS = {'rows': (6, 0), 'in place': (6, 900), 'moved in memory': (14, 0)}
 
 
+def engines(ours, collider):
+    loop, integrator = (w.CurveLoop, w.CurveIntegrator) if ours else (w.InteractionLoop, w.NewtonIntegrator)
+    O.engines = [w.ForceResetter(), scenes.makeCollider(collider, [w.Bo1_Sphere_Aabb()]),
+                 loop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                      [w.Law2_ScGeom_FrictPhys_CundallStrack()]), integrator(damping=.1, gravity=(0, 0, -10))]
+    O.dt = 2e-4
+
+
 def build(ours, kind, collider):
     side, others = KINDS[kind]
     scenes.clear()
@@ -192,11 +196,7 @@ def build(ours, kind, collider):
     # With few contacts per body the loop reads bodies in place.
     for number in range(others):
         O.bodies.append(utils.sphere((100 + 3 * (number % 30), 3 * (number // 30), 0), 1, fixed=True))
-    loop, integrator = (w.CurveLoop, w.CurveIntegrator) if ours else (w.InteractionLoop, w.NewtonIntegrator)
-    O.engines = [w.ForceResetter(), scenes.makeCollider(collider, [w.Bo1_Sphere_Aabb()]),
-                 loop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                      [w.Law2_ScGeom_FrictPhys_CundallStrack()]), integrator(damping=.1, gravity=(0, 0, -10))]
-    O.dt = 2e-4
+    engines(ours, collider)
 
 
 def run(ours, kind, collider, actions, seed):
@@ -271,6 +271,33 @@ def test_aTakenShapeEndsContacts(shape, kind):
     assert not any(i.isReal for i in body.intrs())
     O.run(40, True)
     assert np.isfinite([b.state.pos for b in O.bodies]).all() and O.interactions.countReal() > 50
+
+
+def test_objectsOfAScriptStayWhenOthersAreMovedInMemory():
+    """Bodies and states that a script has made and refers to, or has given attributes of its own."""
+    scenes.clear()
+    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    states, kept = {}, {}
+    for number, place in enumerate(np.array(list(np.ndindex(14, 14, 14))) * .97):
+        ball = utils.sphere(Vector3(*place), .5)
+        if number % 500 == 7:
+            ball.state = states[number] = fresh(w.State, ball.state)
+        if number % 500 == 8:
+            kept[number] = ball
+        if number % 500 == 9:
+            ball.state.remark = ball.remark = number
+        O.bodies.append(ball)
+    del ball
+    engines(True, 'LebesgueCollider')
+    O.run(300, True)
+    assert O.engines[-1].fastBodies == number + 1 and len(states) == len(kept) == 6
+    for number, one in states.items():
+        assert one.pos == O.bodies[number].state.pos != one.refPos
+        assert O.bodies[number + 2].remark == O.bodies[number + 2].state.remark == number + 2
+    for number, ball in kept.items():
+        assert ball.state.vel == O.bodies[number].state.vel
+        ball.state.vel = (1, 2, 3)
+        assert tuple(O.bodies[number].state.vel) == (1, 2, 3)
 
 
 def test_propertiesOfAScriptAreTheScenesAndOutliveIt():
