@@ -53,6 +53,23 @@ const yade::Clump* clumpOf(const yade::Body& body) {
   request(&*clump->members.rbegin(), 0, sizeof(yade::Clump::MemberMap::value_type));
 }
 
+// Rotations of YADE from 2025.2 on; those before turn by momentum.
+template <class Integrator>
+void readRotations(const Integrator& integrator, MotionStep& step) {
+  if constexpr (requires { integrator.rotAlgorithm; }) {
+    const int every = integrator.normalizeEvery;
+    step.turnsByMomentum = integrator.rotAlgorithm == Integrator::RotAlgorithm::Fincham1992;
+    step.normalizes = every != 0 && integrator.scene->iter % every == 0;
+  }
+}
+template <class Integrator>
+bool turnsByOmelyan(const Integrator& integrator) {
+  if constexpr (requires { integrator.rotAlgorithm; }) {
+    return integrator.rotAlgorithm == Integrator::RotAlgorithm::Omelyan1998;
+  }
+  return false;
+}
+
 }  // namespace
 
 void MotionIntegrator::readStep(MotionStep& step) const {
@@ -69,10 +86,7 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   step.velGradChange = (isChanged ? cell.nextVelGrad : cell.velGrad) - prevVelGrad;
   const yade::Matrix3r turn = .5 * (step.velGradChange - step.velGradChange.transpose());
   step.spinChange = FourLanes{-turn(1, 2), turn(0, 2), -turn(0, 1), 0};
-#if YADEFRAG_YADE >= 202502
-  step.turnsByMomentum = rotAlgorithm == RotAlgorithm::Fincham1992;
-  step.normalizes = normalizeEvery != 0 && scene->iter % normalizeEvery == 0;
-#endif
+  readRotations(*this, step);
 }
 
 [[gnu::always_inline]] inline bool MotionIntegrator::turnsAsSphere(const yade::Body& body) const {
@@ -103,9 +117,7 @@ bool MotionIntegrator::findMembers(const yade::Clump& clump, std::vector<Member>
 #endif
   const bool isSphere = turnsAsSphere(body);
   if (isSphere && body.isStandalone()) return Way::kAsSphere;
-#if YADEFRAG_YADE >= 202502
-  if (!isSphere && rotAlgorithm == RotAlgorithm::Omelyan1998) return Way::kByYade;
-#endif
+  if (!isSphere && turnsByOmelyan(*this)) return Way::kByYade;
   if (body.isStandalone()) return Way::kApart;
   const bool isKnown = clumpOf(body) && forces_.has(static_cast<std::size_t>(body.id));
   return isKnown ? Way::kApart : Way::kByYade;

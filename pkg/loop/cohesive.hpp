@@ -9,7 +9,8 @@
 
 namespace yadefrag {
 
-class Cohesive {
+/// What the law of all versions has.
+class CohesiveBase {
  public:
   using Functor = yade::Law2_ScGeom6D_CohFrictPhys_CohesionMoment;
   using Geometry = yade::Ig2_Sphere_Sphere_ScGeom6D;
@@ -20,10 +21,10 @@ class Cohesive {
   static constexpr bool kUsesMasses = false;
   static constexpr std::size_t kBytes = sizeof(Phys);
 
-  Cohesive(const Functor& functor, const yade::Scene& scene) : functor_(functor), scene_(scene) {}
+  CohesiveBase(const Functor& functor, const yade::Scene& scene)
+      : functor_(functor), scene_(scene) {}
 
   static const char* reasonForYade(const Functor& functor, const yade::Scene& scene) {
-    if (YADEFRAG_YADE >= 202502) return "the loop knows this law of YADE before 2025.2 only";
     if (functor.traceEnergy) return "traceEnergy is set";
     if (functor.twist_creep) return "twist_creep is set";
     return scene.trackEnergy ? "O.trackEnergy is set" : nullptr;
@@ -33,6 +34,40 @@ class Cohesive {
     return static_cast<const Known&>(properties).setCohesionNow;
   }
   static bool changesProperties(const Phys& phys) { return phys.initCohesion; }
+
+ protected:
+  [[nodiscard]] bool hasMoment(const Phys& phys) const {
+    return phys.momentRotationLaw && (!phys.cohesionBroken || functor_.always_use_moment_law);
+  }
+  // With creep, and elastic in this step.
+  template <class View>
+  [[gnu::always_inline]] FourLanes elasticShear(const View& view, const Phys& phys) const {
+    FourLanes shear{};
+    if (view.contact.iterMadeReal != scene_.iter) shear = loadThree(phys.shearForce.data());
+    if (functor_.shear_creep) shear -= phys.ks * (shear * scene_.dt / functor_.creep_viscosity);
+    return turned(shear, view.geometry) - phys.ks * view.geometry.shearing;
+  }
+  [[gnu::always_inline]] static double limitOf(const Phys& phys, double adhesion, double friction) {
+    if (!phys.cohesionDisablesFriction || adhesion == 0) adhesion += friction;
+    return std::max(0., adhesion);
+  }
+  template <class View>
+  [[gnu::always_inline]] static void sum(const View& view, const FourLanes& forceOnSecond,
+                                         Force& force) {
+    static_cast<ContactForce&>(force) =
+        contactForce(view.geometry, forceOnSecond, false, view.one.position(), view.position2());
+  }
+
+  const Functor& functor_;
+  const yade::Scene& scene_;
+};
+
+/// YADE before 2025.2: forces break a bond, moments do not.
+class Cohesive2023 : public CohesiveBase {
+ public:
+  using CohesiveBase::CohesiveBase;
+  using CohesiveBase::reasonForYade;
+
   [[gnu::always_inline]] const char* reasonForYade(const Phys& phys) const {
     if (functor_.useIncrementalForm || !phys.momentRotationLaw) return nullptr;
     if (phys.maxRollPl < 0 && phys.maxTwistPl < 0) return nullptr;
@@ -47,10 +82,8 @@ class Cohesive {
     FourLanes normalForce = size * geometry.normal;
     const FourLanes shear = shearOf(view, size, phys, normalForce);
     storeThree(normalForce, phys.normalForce.data());
-    static_cast<ContactForce&>(force) =
-        contactForce(geometry, normalForce + shear, false, view.one.position(), view.position2());
-    force.hasMoment =
-        phys.momentRotationLaw && (!phys.cohesionBroken || functor_.always_use_moment_law);
+    sum(view, normalForce + shear, force);
+    force.hasMoment = hasMoment(phys);
     if (force.hasMoment) force.moment = momentOf(view, norm(normalForce), phys);
     return true;
   }
@@ -69,14 +102,9 @@ class Cohesive {
   template <class View>
   [[gnu::always_inline]] FourLanes shearOf(const View& view, double size, Phys& phys,
                                            FourLanes& normalForce) const {
-    FourLanes shear{};
-    if (view.contact.iterMadeReal != scene_.iter) shear = loadThree(phys.shearForce.data());
-    if (functor_.shear_creep) shear -= phys.ks * (shear * scene_.dt / functor_.creep_viscosity);
-    shear = turned(shear, view.geometry) - phys.ks * view.geometry.shearing;
+    FourLanes shear = elasticShear(view, phys);
     const double friction = size * phys.tangensOfFrictionAngle, force = norm(shear);
-    double limit = phys.shearAdhesion;
-    if (!phys.cohesionDisablesFriction || limit == 0) limit += friction;
-    limit = std::max(0., limit);
+    double limit = limitOf(phys, phys.shearAdhesion, friction);
     if (force > limit) {
       if (phys.fragile && !phys.cohesionBroken) {
         phys.cohesionBroken = true;
@@ -111,9 +139,6 @@ class Cohesive {
     const double limit = factor * pressure, size = norm(moment);
     if (size > limit) moment *= limit / size;
   }
-
-  const Functor& functor_;
-  const yade::Scene& scene_;
 };
 
 }  // namespace yadefrag

@@ -104,7 +104,7 @@ class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::Interacti
       "Ig2_Sphere_Sphere_ScGeom, of spheres with facets, walls and boxes, of "
       "Law2_ScGeom_FrictPhys_CundallStrack, of "
       "Law2_ScGeom_MindlinPhys_Mindlin (while no energies are traced), of "
-      "Law2_ScGeom_ViscElPhys_Basic and, with YADE before 2025.2, of "
+      "Law2_ScGeom_ViscElPhys_Basic and of "
       "Law2_ScGeom6D_CohFrictPhys_CohesionMoment are computed by the loop itself with the same "
       "formulas and the same bits; all others by YADE's functors: report() says which. Forces are "
       "added in the order of O.interactions: if all laws are of this kind, every bit is the same "

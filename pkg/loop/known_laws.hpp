@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "loop/cohesive.hpp"
+#include "loop/cohesive_2025.hpp"
 #include "loop/cundall_strack.hpp"
 #include "loop/hertz_mindlin.hpp"
 #include "loop/viscoelastic.hpp"

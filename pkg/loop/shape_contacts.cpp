@@ -20,11 +20,12 @@ const Shape& shapeOf(const yade::Body& body) {
   return static_cast<const Shape&>(*body.shape);
 }
 
-double boxRadius(const yade::Ig2_Box_Sphere_ScGeom& functor, double radius) {
-#if YADEFRAG_YADE >= 202502
-  if (functor.hertzian) return kHertzian * radius;
-#endif
-  return static_cast<void>(functor), radius;
+// YADE from 2025.2 on has this option of a box's functor.
+template <class Functor>
+double boxRadius(const Functor& functor, double radius) {
+  if constexpr (requires { functor.hertzian; })
+    return functor.hertzian ? kHertzian * radius : radius;
+  return radius;
 }
 
 }  // namespace

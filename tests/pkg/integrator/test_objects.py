@@ -55,11 +55,12 @@ def here(number, name):
 
 class Script:
     """What a script does: `draw` chooses the objects, `kept` has those that it keeps and where they belong, `places`
-    where those of its own classes are."""
+    where those of its own classes are, `physics` what it has made: the last reference to it may not end in O.run,
+    without Python's lock (YADE's loop ends the process)."""
 
     def __init__(self, seed):
         self.draw = np.random.default_rng(seed)
-        self.kept, self.places = [], []
+        self.kept, self.places, self.physics = [], [], []
 
     def body(self):
         found = None
@@ -89,6 +90,14 @@ class Script:
     def ownClass(self, cls, make, owner, name):
         setattr(owner, name, make)
         self.places.append((owner.id if name != 'phys' else (owner.id1, owner.id2), name, cls))
+
+    def newPhysics(self, cls, factor=1.):
+        contact = self.contact()
+        self.physics.append(properties(cls, contact.phys, factor))
+        if cls is Bond:
+            self.ownClass(cls, self.physics[-1], contact, 'phys')
+        else:
+            contact.phys = self.physics[-1]
 
     def append(self, cls=w.Body, number=None):
         body = utils.sphere(Vector3(*self.draw.uniform(2, 5, 2), 30 + .5 * len(O.bodies) % 7), .5)
@@ -153,8 +162,8 @@ ACTIONS = {
     'physics None': lambda s: setattr(s.contact(), 'phys', None),
     'geometry kept': lambda s: s.keepOfContact('geom'),
     'physics kept': lambda s: s.keepOfContact('phys'),
-    'physics replaced': lambda s: (c := s.contact()) and setattr(c, 'phys', properties(w.FrictPhys, c.phys, 1.1)),
-    'physics of a class': lambda s: (c := s.contact()) and s.ownClass(Bond, properties(Bond, c.phys), c, 'phys'),
+    'physics replaced': lambda s: s.newPhysics(w.FrictPhys, 1.1),
+    'physics of a class': lambda s: s.newPhysics(Bond),
     'contact kept': lambda s: s.keepOfContact(),
     'contact erased': lambda s: (c := s.contact()) and O.interactions.erase(c.id1, c.id2),
     'contacts cleared': lambda s: O.interactions.clear(),

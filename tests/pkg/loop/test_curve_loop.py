@@ -2,7 +2,6 @@
 test_laws.py; threads: test_lifecycle.py."""
 import numpy as np
 import pytest
-import yade.config
 import yade.wrapper as w
 import yadefrag
 from yade import utils
@@ -57,11 +56,9 @@ def test_bits(kind, collider, build):
 
 
 def test_otherLaws():
-    """A law of some versions of YADE only, and one that the loop does not know."""
+    """One with moments, and one that the loop does not know."""
     loop = requireSame(lambda: functors(cohesive, cohesive.options['friction']), material=cohesive.material(momentRotationLaw=True))
-    isKnown = yade.config.version < '2025'
-    assert loop.fastForces == (O.interactions.countReal() if isKnown else 0)
-    assert isKnown or 'since the loop knows this law of YADE before 2025.2 only' in loop.report()
+    assert loop.fastForces == O.interactions.countReal()
     linear = requireSame(lambda: [geometries(), [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
                                   [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]])
     assert linear.fastForces == 0 and linear.fastGeometries > 20

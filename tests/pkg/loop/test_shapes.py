@@ -108,8 +108,7 @@ def test_otherLaws(law):
                            lambda: w.CohFrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4, isCohesive=True,
                                                  normalCohesion=1e5, shearCohesion=1e5, momentRotationLaw=True),
                            build=scattered, facets=30, boxes=10)
-    isKnown = law == 'viscous' or yade.config.version < '2025'
-    assert loop.fastForces == (O.interactions.countReal() if isKnown else 0) and len(ofShapes()) > 10
+    assert loop.fastForces == O.interactions.countReal() and len(ofShapes()) > 10
 
 
 def test_shapesThatChange():
