@@ -244,10 +244,23 @@ class LawFunctor : public Functor, public LawCalls {
   ~LawFunctor() override;
 };
 
-class Law2_ScGeom_FrictPhys_CundallStrack : public LawFunctor {
-  alignas(8) unsigned char plasticDissipation_[24];
+// A sum of each thread, in a cache line of its own.
+template <class T>
+class OpenMPAccumulator {
+  int CLS;
+  int nThreads;
+  int eSize;
+  char* data;
 
  public:
+  void operator+=(const T& value) {
+    *reinterpret_cast<T*>(data + omp_get_thread_num() * eSize) += value;
+  }
+};
+
+class Law2_ScGeom_FrictPhys_CundallStrack : public LawFunctor {
+ public:
+  OpenMPAccumulator<Real> plasticDissipation;
   bool neverErase;
   bool sphericalBodies;
   bool traceEnergy;

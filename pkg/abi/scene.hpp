@@ -85,6 +85,8 @@ class EnergyTracker : public Serializable {
  public:
   EnergyTracker() = delete;
   ~EnergyTracker() override;
+  void findId(const string& name, int& id, bool reset, bool newIfNotFound);
+  Real getItem_py(const string& name);
   void setItem_py(const string& name, Real value);
 };
 

@@ -40,10 +40,10 @@ inline double reducedMass(const std::pair<BodyMass, BodyMass>& bodies) {
 
 /// The functor of exactly this class, whose formulas are known; a derived one has others.
 template <class Known, class Functor>
-const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
+Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
   for (const auto& functor : functors) {
-    const Functor& one = *functor;
-    if (typeid(one) == typeid(Known)) return static_cast<const Known*>(&one);
+    Functor& one = *functor;
+    if (typeid(one) == typeid(Known)) return static_cast<Known*>(&one);
   }
   return nullptr;
 }
@@ -62,6 +62,14 @@ inline const yade::IPhysFunctor* functorOf(
 struct ForceAndMoment : ContactForce {
   FourLanes moment;
   bool hasMoment;
+};
+
+/// Energies (J) of a contact: of its springs, and what friction dissipates in the step.
+struct ContactEnergy {
+  double elastic = 0, dissipated = 0;
+};
+struct TracedForce : ContactForce {
+  ContactEnergy energy;
 };
 
 /// Moments (N m) of a contact that turns with its bodies: `bend` and `twist` of the last step, and
@@ -111,6 +119,10 @@ concept ContactLaw = requires(const Law& law, const typename Law::Functor& funct
 template <class Law>
 constexpr bool kUsesRotations =
     std::same_as<typename Law::Geometry, yade::Ig2_Sphere_Sphere_ScGeom6D>;
+
+/// Laws that trace energies on request.
+template <class Law>
+constexpr bool kTracesEnergy = std::same_as<typename Law::Force, TracedForce>;
 
 /// The class of geometry that a law's functor makes.
 template <class Law>

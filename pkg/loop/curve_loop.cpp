@@ -38,8 +38,11 @@ void ContactLoop::action() try {
   const std::size_t size = scene->interactions->size();
   if (size == 0) return;
   threads = threadsFor(size, threadsOf(*this));
-  withLaw(*this, *scene, [&]<class Law>(const typename Law::Functor* functor) {
+  withLaw(*this, *scene, [&]<class Law>(typename Law::Functor* functor) {
     run(PairStep<Law>(*this, *scene, functor), size);
+    if constexpr (kTracesEnergy<Law>) {
+      if (functor && fastForces > 0 && Law(*functor, *scene).tracesEnergy()) addEnergies<Law>(*functor);
+    }
   });
 } catch (const std::exception& error) {
   noteStop(error.what());
@@ -63,6 +66,14 @@ void ContactLoop::run(const PairStep<Law>& step, std::size_t size) {
   addLater();
   rows_.giveForces(*scene, threads);
   if (fastForces > 0) memory_.endStep<ContactOf<Law>, typename Law::Phys>(*scene);
+}
+
+template <class Law>
+void ContactLoop::addEnergies(typename Law::Functor& functor) const {
+  Law::addEnergies(functor, *scene->energy, [this](const auto& visit) {
+    for (const Part& part : parts_)
+      for (const ContactEnergy& one : part.energies) visit(one);
+  });
 }
 
 template <class Law>
@@ -145,13 +156,16 @@ template <class Law>
 [[gnu::always_inline]] inline void ContactLoop::evaluatePart(const PairStep<Law>& step,
                                                              std::size_t size, Part& part) {
   Evaluation<Law> evaluation{step};
-  part.later.clear();
+  part.later.clear(), part.energies.clear();
   for (std::size_t place = part.begin; place < part.end; ++place) {
     if (!evaluateContact(evaluation, place, size)) continue;
     ++evaluation.forces;
     const auto& contact = evaluation.force;
     add(evaluation.row1, contact.force, contact.torque1, part);
     add(evaluation.row2, -contact.force, contact.torque2, part);
+    if constexpr (kTracesEnergy<Law>) {
+      if (step.tracesEnergy()) part.energies.push_back(contact.energy);
+    }
     // Apart, as YADE adds it: a sum of both torques would have other bits.
     if constexpr (requires { contact.moment; }) {
       if (!contact.hasMoment) continue;

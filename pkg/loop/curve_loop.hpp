@@ -54,6 +54,7 @@ class ContactLoop : public yade::InteractionLoop {
     long geometries = 0;  // that the loop computed
     long forces = 0;
     std::vector<BodyForce> later;
+    std::vector<ContactEnergy> energies;
   };
   /// What one thread evaluates.
   template <class Law>
@@ -84,6 +85,8 @@ class ContactLoop : public yade::InteractionLoop {
   [[gnu::noinline]] bool evaluateInPlace(Evaluation<Law>& evaluation, const Contact& contact) const;
   void add(std::uint32_t row, const FourLanes& force, const FourLanes& torque, Part& part);
   void addLater();
+  template <class Law>
+  void addEnergies(typename Law::Functor& functor) const;
 
   BodyRows rows_;
   ContactMemory memory_;

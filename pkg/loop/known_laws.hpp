@@ -22,8 +22,8 @@ void forEachLaw(const Visit& visit) {
 
 /// Null: the loop lacks the functor, or YADE must call it.
 template <ContactLaw Law>
-const typename Law::Functor* computed(const yade::InteractionLoop& loop, const yade::Scene& scene) {
-  const auto* const functor = exactly<typename Law::Functor>(loop.lawDispatcher->functors);
+typename Law::Functor* computed(const yade::InteractionLoop& loop, const yade::Scene& scene) {
+  auto* const functor = exactly<typename Law::Functor>(loop.lawDispatcher->functors);
   return functor && !Law::reasonForYade(*functor, scene) ? functor : nullptr;
 }
 
@@ -35,7 +35,7 @@ void withLaw(const yade::InteractionLoop& loop, const yade::Scene& scene, const 
   for (const bool needsProperties : {true, false}) {
     forEachLaw([&]<class Law>() {
       if (hasRun) return;
-      const auto* const functor = computed<Law>(loop, scene);
+      auto* const functor = computed<Law>(loop, scene);
       if (!functor ||
           (needsProperties && !functorOf(loop.physDispatcher->functors, Law::kProperties)))
         return;

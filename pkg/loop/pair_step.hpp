@@ -150,6 +150,7 @@ class PairStep : public PairFunctors {
         geometry_(exactly<typename Law::Geometry>(loop.geomDispatcher->functors)) {
     if (functor) lawOfStep_.emplace(*functor, scene);
   }
+  [[nodiscard]] bool tracesEnergy() const { return lawOfStep_->tracesEnergy(); }
   /// True: YADE's law may compute the force of this contact.
   [[nodiscard]] bool isForYade(const yade::Interaction& contact) const {
     return !isOfLaw(contact) || !contact.phys || isException(*contact.phys);

@@ -50,7 +50,7 @@ def test_bits(kind, collider, build):
     loop = requireSame(kFunctors[kind], collider=collider, build=build, steps=80 if build is denseHeap else 700)
     real = O.interactions.countReal()
     assert build is heap or len(O.interactions) > len(O.bodies)
-    assert loop.fastForces == (0 if kind == 'traced' else real)
+    assert loop.fastForces == real
     # YADE's functors compute the first geometry of a contact.
     assert (loop.fastGeometries == 0) if kind == 'rotations' else 0 <= real - loop.fastGeometries < 8
 
@@ -96,24 +96,33 @@ def test_forcesOfOthers(laws, build):
     elif laws in ('mixed', 'viscous'):
         assert kinds == {'FrictPhys', 'ViscElPhys'} and 0 < computed < 1
     else:
-        assert kinds == {'FrictPhys'} and computed == (laws == 'friction')
+        assert kinds == {'FrictPhys'} and computed == 1
 
 
-def test_energies():
-    def tracked():
-        heap()
-        O.trackEnergy = True
+@pytest.mark.parametrize('build', [heap, denseHeap])
+@pytest.mark.parametrize('way', ['traceEnergy', 'O.trackEnergy'])
+def test_energies(way, build):
+    """The bits of YADE with one thread, for any number of threads; after a script has cleared the sums, too."""
     found = []
-    for name in NAMES:
-        run(name, kFunctors['friction'](), 300, build=tracked)
-        found.append(dict(O.energy.items()))
+    for name, threads in (*zip(NAMES, (1, 1)), (NAMES[1], 2)):
+        build()
+        O.trackEnergy = way[0] == 'O'
+        loop = getattr(w, name)(*kFunctors['friction' if O.trackEnergy else 'traced']())
+        loop.ompThreads = threads
+        O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop,
+                     w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+        sums = []
+        for steps in (100, 200):
+            O.run(steps, True)
+            sums.append((loop.lawDispatcher.functors[0].plasticDissipation(), O.energy.items(), O.energy.total(),
+                         [getattr(i.phys, 'frictDissip', 0) for i in O.interactions]))
         O.trackEnergy = False
-    assert found[0] == found[1] and found[0]['plastDissip'] > 0 and found[0]['elastPotential'] > 0
-    losses = []
-    for name in NAMES:
-        loop, _ = run(name, kFunctors['traced'](), 300)
-        losses.append(loop.lawDispatcher.functors[0].plasticDissipation())
-    assert losses[0] == losses[1] > 0
+        found.append(sums)
+    assert found[0] == found[1] == found[2] and loop.fastForces == O.interactions.countReal()
+    traced, energies = sums[-1][0], dict(sums[-1][1])
+    assert energies['elastPotential'] > 0 < (energies['plastDissip'] if way[0] == 'O' else traced)
+    O.energy.clear()
+    O.step()
 
 
 @pytest.mark.parametrize('isSorted', [False, True])
