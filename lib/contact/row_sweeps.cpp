@@ -87,7 +87,7 @@ double RowSweeps::relax(RowSystem::Row& row, int sweep) {
   return setForces(row, normal, moved, sweep);
 }
 
-/// The same for both rows of a notch: each alone, or both, whichever closes no gap.
+/// Relaxes both rows of a notch: each alone, or both, whichever closes no gap.
 double RowSweeps::relaxNotch(RowSystem::Row& row, int sweep) {
   RowSystem::Row& twin = (&row)[1];
   const Vec2 moved = system_.relativeMotion(row), twinMoved = system_.relativeMotion(twin);

@@ -77,7 +77,7 @@ void arrange(Array& array, std::span<const IdType> order) {
   for (std::size_t i = 0; i < order.size(); ++i) array[i] = former[order[i].value];
 }
 
-/// The same for all rows.
+/// Puts all columns that are used into this order.
 template <class Columns, class IdType>
 void arrangeRows(const Columns& columns, std::span<const IdType> order) {
   columns([&](const Column& column, auto& array) {

@@ -62,7 +62,7 @@ auto runFor(InstructionSet set, Work work) {
   return runBaseline(work);
 }
 
-/// The same, with AVX-512, too.
+/// Runs `work` with AVX-512 if the set is that, otherwise as `runFor`.
 template <class Work>
 auto runForWide(InstructionSet set, Work work) {
 #ifdef __x86_64__

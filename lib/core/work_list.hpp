@@ -57,7 +57,7 @@ class WorkList {
       }
     }
   }
-  /// The same in descending order.
+  /// Removes the waiting numbers in descending order, and calls `visit(number)` for each.
   template <class Visit>
   void visitDown(Visit visit) {
     visitDown(all(), visit);

@@ -39,7 +39,7 @@ struct LebesgueNumbering {
     for (int r = 0; r < ranges.count; ++r) visit(ranges.range[r]);
   }
 
-  /// The same for a rectangle of any size that does not wrap around.
+  /// Visits the ranges of a rectangle of any size that does not wrap around.
   template <class Visit>
   static void forEachRangeOfLarge(std::uint64_t low, std::uint64_t high, Visit visit) {
     yadefrag::forEachRangeOfLarge<Dim>(low, high, visit);

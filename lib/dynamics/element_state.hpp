@@ -88,7 +88,7 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 /// (Pa) Cauchy stress xx, yy, xy of the F of one element, without strain smoothing. Cracks average
 /// it over the elements at a node, which is a smoothing of its own. `dt`: as below.
 std::array<double, 3> stressOf(const Model& model, ElementId element, double dt = 0);
-/// The same of an elastic element with these moduli.
+/// (Pa) Cauchy stress xx, yy, xy of the F of one elastic element with these moduli.
 std::array<double, 3> elasticStressOf(const Model& model, ElementId element, const Moduli& moduli);
 
 /// (1/s) Rate of deformation xx, yy, xy of one element: the symmetric part of ḞF⁻¹.
@@ -120,7 +120,7 @@ struct NodeSum {
 
 /// (J) Energy at the half step.
 double smoothedEnergy(const Model& model, double dt);
-/// The same for some triangles; there must be no others at their nodes.
+/// (J) Energy of some triangles at the half step; there must be no others at their nodes.
 double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt);
 
 /// Sets the Cauchy stresses (Pa: xx, yy, xy), by triangle, from which the forces are computed.
@@ -142,7 +142,7 @@ struct YieldingEnergy {
   double dissipated = 0;
 };
 [[nodiscard]] YieldingEnergy yieldingEnergy(const Model& model, double dt);
-/// The same for some elements, which must be whole fragments.
+/// Energies of some elements at the half step; these must be whole fragments.
 [[nodiscard]] YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> elements,
                                             double dt);
 /// Damage by triangle; 0 where the material does not fail.

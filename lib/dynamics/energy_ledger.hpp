@@ -54,7 +54,7 @@ double moment(std::span<const Vec2> positions, std::span<const Vec2> forces);
 
 /// J, at n − ½; Δt is that of the last step.
 double strainEnergy(const Model& model, double dt);
-/// The same for some elements; of bodies with smoothed strains, these must be whole fragments.
+/// J, at n − ½, of some elements; of bodies with smoothed strains, these must be whole fragments.
 double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements);
 
 }  // namespace yadefrag

@@ -34,8 +34,8 @@ class ExplicitDynamics {
   /// Follows added, removed or renumbered nodes and triangles; `predict` asserts it.
   void rebuild(const Model& model);
 
-  /// The same after a mere split of nodes, at a cost that grows with the number of changed
-  /// elements: new nodes were appended, and corners of the `changed` elements became new nodes.
+  /// Follows a mere split of nodes, at a cost that grows with the number of changed elements: new
+  /// nodes were appended, and corners of the `changed` elements became new nodes.
   /// `originals[i]` is the node from which the i-th new node was copied. All later steps have the
   /// same bits as after `rebuild`. Returns the number of chunks of elements that were rebuilt.
   std::size_t follow(const Model& model, std::span<const ElementId> changed,

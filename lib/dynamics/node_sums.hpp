@@ -60,17 +60,17 @@ class NodeSums {
     std::fill_n(of(chunk), chunk.lastNode - chunk.firstNode, T{});
     return of(chunk);
   }
-  /// Afterwards.
+  /// After the chunk's elements are added: keeps its part of shared nodes' sums.
   void end(const ElementChunks& elements, const Chunk& chunk) {
     for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)
       partial_[elements.partialOf[i]] = value_[i];
   }
-  /// Then, for each row of `ElementChunks::sharedNodes`: each chunk of the node gets the whole sum.
+  /// After `end` of all chunks, for each row of `ElementChunks::sharedNodes`: its node's whole sum.
   void sumShared(const ElementChunks& elements, std::size_t row) {
     std::fill(whole_.begin() + elements.firstPartial[row],
               whole_.begin() + elements.firstPartial[row + 1], reduce(elements, partial_, row));
   }
-  /// Then the chunk's whole sums.
+  /// After `sumShared` of all rows: the chunk's whole sums.
   [[nodiscard]] T* whole(const ElementChunks& elements, const Chunk& chunk) {
     for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)
       value_[i] = whole_[elements.partialOf[i]];

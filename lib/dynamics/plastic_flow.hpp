@@ -88,7 +88,7 @@ class PlasticFlow {
   /// First pass, for one smoothed chunk; positions by local number.
   void sum(InstructionSet set, Model& model, const ElementChunks& elements, const Chunk& chunk,
            const Vec2* position, std::size_t thread);
-  /// Then the sums of nodes in several chunks.
+  /// After the first pass, for each row of `ElementChunks::sharedNodes`: that node's whole sums.
   void sumShared(const ElementChunks& elements, std::size_t row);
   /// If the flow of the chunk changes its volume: sums the volumes that follow; `sumShared` must be
   /// called again.

@@ -65,7 +65,7 @@ class StrainSmoothing {
   /// inverted or not finite.
   bool sum(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
            const Vec2* position, std::vector<ElementRange>& stressed);
-  /// Then the sums of nodes in several chunks.
+  /// After the first pass, for each row of `ElementChunks::sharedNodes`: that node's whole sum.
   void sumShared(const ElementChunks& elements, std::size_t row) {
     gradient_.sumShared(elements, row);
   }

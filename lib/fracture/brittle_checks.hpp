@@ -78,25 +78,25 @@ void checkBrittle(const BrittleMaterial& material);
 /// it is the hardest to satisfy; so is the message about the zone.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
-/// The same; for a body whose strength or fracture energy varies by place, edge by edge with the
-/// values in `edges`.
+/// Throws InputError if one step would close the opening of the cohesive law; edge by edge with the
+/// values in `edges` for a body whose strength or fracture energy varies by place.
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
                              double dt);
 
-/// That condition for one edge.
+/// True if no step of `dt` (s) closes the opening of the cohesive law at this edge.
 [[nodiscard]] bool isResolved(const Model& model, const CrackEdges& edges, EdgeId edge, double dt);
 
-/// The same for bonds between bodies.
+/// Throws InputError if one step would close the opening of a bond between bodies.
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt);
 
 /// A message if the cohesive zone (`cohesiveZone`) is shorter than four elements, so that bodies
 /// with a notch or a crack carry too much load, or longer than half of the body, so that one
 /// without them does; otherwise empty. An element's length is the mean of the component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
-/// The same for the shortest zone of a body whose strength or fracture energy varies by place.
+/// The message about the shortest zone of a body whose strength or energy varies by place.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
                                               ComponentId component);
-/// The same for the bonds from edge `first` on.
+/// The message of `cohesiveZoneWarning` about the bonds from edge `first` on.
 [[nodiscard]] std::string bondZoneWarning(const Model& model, const CrackEdges& edges,
                                           EdgeId first);
 

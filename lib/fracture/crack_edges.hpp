@@ -103,7 +103,7 @@ struct CrackEdges {
     const auto w = static_cast<std::size_t>(which);
     return {element[edge.value][w], corner[edge.value][w]};
   }
-  /// The same edge as a side of the other triangle; none() on the boundary.
+  /// The other triangle's side at this edge; none() on the boundary.
   [[nodiscard]] Side twin(Side side) const;
   /// The triangle across a side; none() at a face or a crack.
   [[nodiscard]] ElementId across(Side side) const {

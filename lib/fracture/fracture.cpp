@@ -47,7 +47,7 @@ class YieldingSplit {
   /// Before the split, which will crack these edges.
   YieldingSplit(const Model& model, const CrackEdges& edges, std::span<const EdgeId> cracks,
                 double dt);
-  /// Afterwards; `originals` as in SplitResult. Returns the energy (J) that these bodies have
+  /// After the split; `originals` as in SplitResult. Returns the energy (J) that these bodies have
   /// gained, at the half step.
   double applySplit(Model& model, std::span<const NodeId> originals, double dt) const;
 

@@ -48,8 +48,8 @@ struct SpatialStretch {
   std::array<double, 3> plane;
   double across;
 };
-/// The same with a given stress across the plane (Pa), by the law of materials that yield
-/// (dynamics/yield_law.hpp).
+/// The stretches that cause a Cauchy stress in the plane and one across it (Pa), by the law of
+/// materials that yield (dynamics/yield_law.hpp).
 [[nodiscard]] std::optional<SpatialStretch> stretchOf(const ElasticMaterial& material,
                                                       const std::array<double, 3>& stress,
                                                       double across);

@@ -71,7 +71,7 @@ void checkSize(const Polygon& polygon, const SizeField& field, double mostBytes)
         size, extent.farthest, tolerance::kLeastSize * extent.farthest));
 }
 
-/// The same bits from either end.
+/// Its bits do not depend on which end is `a`.
 Vec2 pointOnEdge(Vec2 a, Vec2 b, std::uint32_t part, std::uint32_t parts) {
   const double n = parts;
   if (2 * part == parts) return (a + b) * .5;

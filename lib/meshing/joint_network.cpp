@@ -117,7 +117,7 @@ void JointNetwork::addCrossings() {
     if (a.value >= first) addCrossing(joints_[a.value - first], joints_[b.value - first]);
 }
 
-/// Also where a joint ends before it reaches the other line, within the tolerance.
+/// A joint that ends before it reaches the other line, within the tolerance, crosses it, too.
 void JointNetwork::addCrossing(const Line& a, const Line& b) {
   const auto longer = [&](const Line& line) {
     const Vec2 unit = (1 / norm(line.along())) * line.along();

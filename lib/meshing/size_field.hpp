@@ -19,7 +19,7 @@ class SizeField {
   /// finite, and for fewer than two rows or columns.
   SizeField(Vec2 low, double cell, std::uint32_t columns, std::vector<double> values);
 
-  /// The same sizes in another unit (m), with the origin at `low`.
+  /// These sizes in another unit (m), with the origin at `low`.
   [[nodiscard]] SizeField inUnits(double unit, Vec2 low) const;
 
   [[nodiscard]] bool isEven() const { return values_.empty(); }

@@ -72,8 +72,8 @@ using SnapSides = std::vector<std::array<Vec2, 2>>;
 [[nodiscard]] Snapped snapOnto(const Polygon& polygon, const SnapSides& neighbours,
                                const SnapRule& rule);
 
-/// The same for a set of polygons in their order: each is moved onto the earlier ones, and gets the
-/// vertices of all others on its edges. Afterwards common sides have the same ends.
+/// Snaps polygons to each other in their order: each is moved onto the earlier ones, and gets the
+/// vertices of all others on its edges. Common sides have the same ends afterwards.
 [[nodiscard]] std::vector<Snapped> snapTogether(std::vector<Polygon> polygons, double tolerance);
 
 }  // namespace yadefrag

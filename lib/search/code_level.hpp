@@ -38,7 +38,7 @@ class CodeLevel {
     });
   }
 
-  /// The same for all `ranges`; `near` is overwritten. For FilterBlocks.
+  /// Visits the boxes in all `ranges` that overlap `box`; overwrites `near`. For FilterBlocks.
   template <class Visit>
   void forEachOverlap(InstructionSet set, const Box& box, const FilterBox& filter,
                       std::span<const Box> boxes, std::span<const BlockRange> ranges,

@@ -126,7 +126,7 @@ void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std
   }
 }
 
-/// The same ranges for a box beside the end of a coordinate, where rows wrap around.
+/// The ranges of neighbours of a box beside the end of a coordinate, where rows wrap around.
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::outerRows(const Level& level, std::size_t i,
                                                   std::vector<BlockRange>& ranges,

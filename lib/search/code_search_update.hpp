@@ -135,7 +135,7 @@ bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
   return same;
 }
 
-/// The same for codes row by row, which are encoded anew where any number has changed.
+/// Returns true if the box has kept its code row by row; if not, the box is encoded anew.
 template <class Numbering, int Dim, class Count>
 bool CodeSearch<Numbering, Dim, Count>::staysInRow(const Box& box, Place& place,
                                                    Count& count) const {

@@ -95,8 +95,8 @@ struct Along {
   ComponentId body;
 };
 
-/// The same for lines, which may touch triangles with either side: a point at which triangles of
-/// one body lie on both sides of the line. `known`: all triangles so far.
+/// A point of the line inside the triangle; or, since a line may touch triangles with either side,
+/// one at which triangles of one body lie on both sides. `known`: all triangles so far.
 std::vector<Vec2> meetLine(const BoundarySide& side, const Facet& facet,
                            std::vector<Along>& known) {
   if (side.held && facet.held) return {};
@@ -121,7 +121,7 @@ std::vector<Vec2> meetLine(const BoundarySide& side, const Facet& facet,
 /// Sides and triangles of the bodies that may overlap, within a common box.
 class OverlapSearch {
  public:
-  /// Also sides outside the box: of a body around it, their distance is the depth.
+  /// Keeps sides outside the box, too: of a body around it, their distance is the depth.
   void add(const BoundarySide& side) { sides_.push_back(side); }
   void add(const Facet& facet) {
     if (overlaps(boxOf(facet), within_)) facets_.push_back(facet);

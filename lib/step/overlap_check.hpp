@@ -84,7 +84,7 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
 /// (m) The deepest overlap of any two triangles without a common node; at most a triangle's height,
 /// since the triangles are separated one by one.
 [[nodiscard]] double deepestOverlap(const Model& model, int threads = 1);
-/// The same of the triangles with a node that `among` marks, by node.
+/// (m) The deepest overlap among triangles with a node that `among` marks, by node.
 [[nodiscard]] double deepestOverlap(const Model& model, std::span<const std::uint8_t> among,
                                     int threads = 1);
 

@@ -13,7 +13,6 @@ bool allBelow(const std::vector<Id>& ids, std::size_t count) {
   return std::ranges::all_of(ids, [&](Id id) { return id.value < count; });
 }
 
-/// The same, where entries may be none().
 template <class Id>
 bool allBelowOrNone(const std::vector<Id>& ids, std::size_t count) {
   return std::ranges::all_of(ids, [&](Id id) { return id == Id::none() || id.value < count; });

@@ -122,7 +122,7 @@ class World {
   /// InputError before anything is changed.
   std::size_t bond(ComponentId a, ComponentId b, double strength, double energy,
                    ConformPlan* done = nullptr);
-  /// The same for all bodies whose sides are up to `reach` (m) apart. Those that cannot get the
+  /// Bonds all bodies along all sides that are up to `reach` (m) apart. Those that cannot get the
   /// same ends are counted in the result, and not bonded.
   CommonSides bondAll(double reach, double strength, double energy, ConformPlan* done = nullptr);
 
@@ -140,10 +140,10 @@ class World {
   /// From now on the nodes move at `velocity` (m/s) in the directions `held`, and freely in the
   /// others. Throws InputError before anything is changed.
   void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
-  /// The same with a velocity for each of the nodes.
+  /// Prescribes a velocity (m/s) for each of the nodes.
   void prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
                      std::span<const Vec2> velocity);
-  /// The same with a motion that begins now; one with a rotation holds both directions.
+  /// Prescribes a motion that begins now; one with a rotation holds both directions.
   void prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion);
 
   /// One step of Δt (s), which may differ from the previous one. Throws TimeStepError for a step

@@ -31,7 +31,7 @@ struct LayoutProbe {
 static_assert(offsetof(State, updateMutex) == 24 + sizeof(Indexable) + 2 * sizeof(void*));
 static_assert(sizeof(Se3r) == 56 && offsetof(Se3r, orientation) == 24);
 
-// The same for the two reference members of ScGeom.
+// ScGeom's two reference members are between these two.
 static_assert(offsetof(ScGeom, penetrationDepth) ==
               yadefrag::layoutBytes("ScGeom", "orthonormal_axis") + sizeof(Vector3r) +
                   2 * sizeof(void*));

@@ -104,7 +104,7 @@ class BodyBoxes {
   /// bound.
   void prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                double cellSlack, int threads);
-  /// The same, but only for bodies that were added, removed or changed since the last `commit`, and
+  /// Replaces `prepare` for bodies that were added, removed or changed since the last `commit`, and
   /// for those that have left their box, will have left it `rule.lookAhead` from now at their
   /// present speed, or have become so slow that the box is far too large. All others keep their
   /// boxes and bounds. `quick`: only added or removed bodies are checked. Returns false if this is

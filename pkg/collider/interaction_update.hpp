@@ -27,8 +27,8 @@ class InteractionUpdate {
   void apply(yade::Scene& scene, const Neighbours& near, std::span<const Box> boxes,
              const MayCollide& mayCollide, int threads);
 
-  /// The same if only the boxes of `changed` (ascending) are new; `near` are the pairs with at
-  /// least one of these bodies. Only their interactions are checked, and those kept because of a
+  /// Replaces `apply` if only the boxes of `changed` (ascending) are new; `near` are the pairs with
+  /// at least one of these bodies. Only their interactions are checked, and those kept because of a
   /// contact: for these `isNear(id1, id2)`, id1 < id2, is called.
   void applyChanged(yade::Scene& scene, const Neighbours& near, std::span<const Box> boxes,
                     std::span<const BoxId> changed, const MayCollide& mayCollide,

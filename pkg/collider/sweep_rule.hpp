@@ -70,7 +70,7 @@ struct SweepRule {
            !isLoose(length, speedOf(velocity));
   }
 
-  /// The same for any body that has moved by `moved` (m) in a room around its position.
+  /// False if a body that is `moved` (m) from its room's centre leaves it soon, or is too slow.
   [[nodiscard]] bool lasts(double sweep, double moved, double speed) const {
     const double soon = moved + speed * lookAhead;
     return (soon < sweep || soon == 0) && !isLoose(sweep, speed);

@@ -49,8 +49,8 @@ class ScriptFunctions {
   /// Removes functions that are not used in the world.
   void keep(const World& world);
 
-  /// Calls the functions of motions and pressures for the next step of `dt` (s): (positions of the
-  /// nodes, middle of the step in s) → bytes of a velocity (m/s) for each; time (s) → Pa. Does
+  /// Calls the functions of motions and pressures for the next step of `dt` (s): (array of the
+  /// nodes' positions, middle of the step in s) → array of velocities (m/s); time (s) → Pa. Does
   /// nothing if there are none or one is missing. Throws std::runtime_error with the message of a
   /// function's exception.
   void giveValues(World& world, double dt) const;

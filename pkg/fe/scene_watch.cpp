@@ -92,7 +92,7 @@ constexpr const char* kOrder =
 
 using Engines = std::vector<const yade::Engine*>;
 
-/// Also true for engines that are derived from one: CurveLoop is an InteractionLoop.
+/// True for derived engines, too: CurveLoop is an InteractionLoop.
 template <class Kind>
 bool isA(const yade::Engine* engine) {
   return dynamic_cast<const Kind*>(engine) != nullptr;

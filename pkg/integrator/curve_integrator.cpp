@@ -265,7 +265,7 @@ void MotionIntegrator::callYades() {
   timingDeltas.swap(yadesDeltas_);
 }
 
-// Also what is done once in a step: changes of the cell's velocity gradient, warnings.
+// YADE does here, too, what it does once in a step: the cell's velocity gradient, warnings.
 void MotionIntegrator::moveOthers(std::vector<yade::Body::id_t>& others) {
   yade::BodyContainer& bodies = *scene->bodies;
   const bool isDirty = bodies.dirty, isEnabled = bodies.enableRedirection,

@@ -47,7 +47,7 @@ class PairFunctors {
   /// True: a contact that has not begun and does not begin in this step. Reads less than
   /// `evaluate`; if it is false, nothing is known.
   [[nodiscard]] [[gnu::noinline]] bool isFarApart(const yade::Interaction& contact) const;
-  /// The same for bodies in rows, in the order of the contact.
+  /// True: a contact of these rows, in its order, that has not begun and does not begin now.
   [[nodiscard]] [[gnu::always_inline]] bool isFarApart(const yade::Interaction& contact,
                                                        const BodyRow& one,
                                                        const BodyRow& two) const {
@@ -136,7 +136,7 @@ class PairFunctors {
   bool isAllKnown_;
 };
 
-/// The same, with the known law. Compiled for each law, so that a contact costs no virtual call.
+/// PairFunctors with the known law. Compiled for each law: a contact costs no virtual call.
 template <ContactLaw Law>
 class PairStep : public PairFunctors {
  public:

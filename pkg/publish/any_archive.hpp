@@ -31,7 +31,7 @@ class AnyArchive {
   void item(const char* name, Value& value) {
     exchange(name, Slot(&value));
   }
-  /// The same for numbers whose count is known.
+  /// Saves `count` numbers under this name, or loads them.
   template <class Number>
   void numbers(const char* name, Number* first, std::size_t count) {
     exchange(name, Numbers(std::span(first, count)));

@@ -87,7 +87,7 @@ py::object snapOf(const FESolver& solver, const py::object& outline, const py::l
   });
 }
 
-/// The same for a list of (outline, holes): a list of such objects.
+/// `polygons`: a list of (outline, holes). Returns a list of the objects of `recordOf`.
 py::list snapTogetherOf(const py::list& polygons, double tolerance) {
   return asValueError([&] {
     std::vector<Polygon> given(static_cast<std::size_t>(py::len(polygons)));
@@ -132,7 +132,7 @@ py::object bondOf(FESolver& solver, int a, int b, double strength, double energy
   });
 }
 
-/// Also the number of sides that do not match, two bodies and a place (m) of which this is true.
+/// sides; unmatched: number of sides that do not match; two bodies and a place (m) of such ones.
 py::object bondAllOf(FESolver& solver, double reach, double strength, double energy) {
   return bonded(solver, [&](World& world, ConformPlan& done) {
     const CommonSides found = world.bondAll(reach, strength, energy, &done);

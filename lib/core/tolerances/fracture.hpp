@@ -20,7 +20,7 @@ inline constexpr double kShearLead = 3;
 inline constexpr double kZoneElements = 4;
 
 /// (of the smallest width of the body) Length of the cohesive zone up to which the strength of a
-/// body without a notch is that of its material, to a seventh or so: `scripts/bench cracks`.
+/// body without a notch is that of its material, to a seventh or so (docs/data/cracks.csv).
 inline constexpr double kMostZone = .5;
 
 /// (of a side) Largest distance between the ends of two sides that are bonded. In its first step

@@ -323,11 +323,6 @@ def test_contactsOfASphereWithWhatGoesLeaveWithIt(young):
     assert solver.dropped['count'] > 10 and not solver.warnings
 
 
-def material(name, friction):
-    return w.BrittleFEMat(young=1e10, poisson=.2, density=1800, frictionAngle=friction, tensileStrength=3e6,
-                          fractureEnergy=50, label=name)
-
-
 def bricks(solver, size):
     rows = [[solver.addPolygon(yadefrag.rectangle((.4 * k, .15 * r), (.4 * k + .4, .15 * r + .15)), size=size,
                                material='brick', mesh='regular') for k in range(2)] for r in range(4)]
@@ -338,19 +333,17 @@ def bricks(solver, size):
 
 
 kBodies = {
-    'rows': lambda solver, size: solver.addPolygon(yadefrag.rectangle((0, 0), (.8, .6)), size=size,
-                                                   material='brick', mesh='regular'),
-    'scattered': lambda solver, size: solver.addPolygon(yadefrag.rectangle((0, 0), (.8, .6)), size=size,
-                                                        material='brick'),
-    'smooth': lambda solver, size: solver.addPolygon(yadefrag.circle((.4, .3), .4), size=size,
-                                                     material='brick', smooth=True),
+    'rows': lambda solver, size: solver.addPolygon(yadefrag.rectangle((0, 0), (.8, .6)), size, 'brick', mesh='regular'),
+    'scattered': lambda solver, size: solver.addPolygon(yadefrag.rectangle((0, 0), (.8, .6)), size, 'brick'),
+    'smooth': lambda solver, size: solver.addPolygon(yadefrag.circle((.4, .3), .4), size, 'brick', smooth=True),
     'bricks': bricks,
 }
 
 
 def sphereImpact(kind, size, height, clump, friction=0., young=5e10, part=.5):
     """The solver, and the body that hits it at 20 m/s."""
-    O.materials.append(material('brick', friction))
+    O.materials.append(w.BrittleFEMat(young=1e10, poisson=.2, density=1800, frictionAngle=friction, tensileStrength=3e6,
+                                      fractureEnergy=50, label='brick'))
     O.materials.append(w.FrictMat(young=young, poisson=.3, density=7800, frictionAngle=friction, label='steel'))
     solver = w.FESolver()
     kBodies[kind](solver, size)

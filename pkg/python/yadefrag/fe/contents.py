@@ -122,7 +122,7 @@ def bodyNumber(fe: FESolver, value: Any, argument: str = 'component', least: int
 
 
 def existingBody(fe: FESolver, value: Any, argument: str = 'component') -> int:
-    """The same for an existing body."""
+    """The number of the existing body that `value` refers to; ValueError for none."""
     number = bodyNumber(fe, value, argument)
     if not 0 <= number < len(fe._names) or fe._isGone(number):
         raise ValueError('%s is %s, which is no body of this FESolver.' % (argument, shown(value)))

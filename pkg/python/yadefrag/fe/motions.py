@@ -60,7 +60,7 @@ def timeTable(value: Any) -> tuple[numpy.ndarray, numpy.ndarray] | None:
 
 
 def tableOrNumber(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """The same; a number is a table of one row."""
+    """(times (k), values (k)) of a table of pairs; a number is a table of one row."""
     if real(value) is not None:
         one = number(name, value, math.isfinite, 'a finite number (%s)' % unit)
         return numpy.zeros(1), numpy.full(1, one)

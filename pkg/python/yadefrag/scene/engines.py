@@ -137,7 +137,7 @@ def installColliders(colliders: Collection[str]) -> None:
 
 
 def inCurveOrder(bodies: Iterable[T]) -> list[T]:
-    """The same bodies in the order of their positions along the Lebesgue (Morton) curve.
+    """The given bodies in the order of their positions along the Lebesgue (Morton) curve.
 
     bodies  a sequence of Body that are not in O.bodies yet; or of positions, (x, y, z) or (position,
             radius), of spheres to be created. Lengths in any one unit.

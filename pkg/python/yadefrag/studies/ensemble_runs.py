@@ -90,7 +90,7 @@ def _listOf(values):
 
 def _run(rows, job, finished, executor, workers):
     """Runs all rows and stores their results."""
-    # The same row may occur several times.
+    # Rows may be equal: `turn` tells them apart.
     keys = [dict(setting=row.settings, turn=sum(row.settings == other.settings for other in rows[:place]))
             for place, row in enumerate(rows)]
     with counted(len(rows), lambda: sum(row.result != 'not run' for row in rows)) as bar:
