@@ -2,6 +2,8 @@
 // Functors that compute the bounds of shapes, and the geometry, the properties and the forces of
 // contacts.
 
+#include <omp.h>
+
 #include <stdexcept>
 
 #include "abi/engine.hpp"
@@ -304,6 +306,9 @@ class Law2_ScGeom6D_CohFrictPhys_CohesionMoment : public LawFunctor {
   bool consistencyCheck;
 #endif
   Real creep_viscosity;
+#if YADEFRAG_YADE >= 202502
+  void checkConsistency(const shared_ptr<CohFrictPhys> phys, int id1, int id2) const;
+#endif
   Law2_ScGeom6D_CohFrictPhys_CohesionMoment() = delete;
   ~Law2_ScGeom6D_CohFrictPhys_CohesionMoment() override;
 };

@@ -2,6 +2,7 @@
 // YADE's Law2_ScGeom6D_CohFrictPhys_CohesionMoment from 2025.2 on: moments have adhesion, and break
 // a bond as forces do.
 
+#include <atomic>
 #include <cmath>
 #include <type_traits>
 
@@ -18,13 +19,11 @@ class Cohesive2025 : public CohesiveBase {
   using CohesiveBase::CohesiveBase;
   using CohesiveBase::reasonForYade;
 
-  [[gnu::always_inline]] const char* reasonForYade(const P& phys) const {
-    const bool isFirst = static_cast<const F&>(functor_).consistencyCheck && phys.momentRotationLaw;
-    return isFirst ? "YADE checks the limits of moments of the first contact" : nullptr;
-  }
+  static const char* reasonForYade(const P& /*phys*/) { return nullptr; }
 
   template <class View>
   [[gnu::always_inline]] bool apply(const View& view, P& phys, Force& force) const {
+    if (phys.momentRotationLaw) warnOnce(functor_, view.contact);
     force.hasMoment = hasMoment(phys);
     Elastic elastic;
     elastic.size = phys.kn * (view.geometry.depth - phys.unp);
@@ -61,6 +60,13 @@ class Cohesive2025 : public CohesiveBase {
   struct Strength {
     Squares shear, bend, twist;
   };
+
+  // YADE warns of limits of moments that do not fit, of the first contact that has moments.
+  static void warnOnce(const F& functor, const yade::Interaction& contact) {
+    if (!functor.consistencyCheck) return;
+    if (!std::atomic_ref(const_cast<F&>(functor).consistencyCheck).exchange(false)) return;
+    functor.checkConsistency(boost::static_pointer_cast<P>(contact.phys), contact.id1, contact.id2);
+  }
 
   template <class View>
   [[gnu::always_inline]] void setMoments(const View& view, const P& phys, Elastic& elastic) const {

@@ -41,7 +41,8 @@ void ContactLoop::action() try {
   withLaw(*this, *scene, [&]<class Law>(typename Law::Functor* functor) {
     run(PairStep<Law>(*this, *scene, functor), size);
     if constexpr (kTracesEnergy<Law>) {
-      if (functor && fastForces > 0 && Law(*functor, *scene).tracesEnergy()) addEnergies<Law>(*functor);
+      if (functor && fastForces > 0 && Law(*functor, *scene).tracesEnergy())
+        addEnergies<Law>(*functor);
     }
   });
 } catch (const std::exception& error) {

@@ -232,14 +232,14 @@ def main(arguments):
     former = [row for file in options.add for row in earlier(file, options.steps)]
     if not options.codes or options.codes[0] not in ENGINES:
         sys.exit('scripts/bench codes: the first of --codes must be one of ' + ', '.join(ENGINES) + '.')
-    rows = former + measured(options, makeProgress())
-    machine = measured_tables.machineOf(rows)
+    runs = former + measured(options, makeProgress())
+    machine = measured_tables.machineOf(runs)
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'codes.json'), 'w') as out:
-        json.dump(dict(machine=machine, steps=options.steps, friction=options.friction, rows=rows), out, indent=1)
-    found = summary(rows)
-    runs = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
-    about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {runs}, '
+        json.dump(dict(machine=machine, steps=options.steps, friction=options.friction, rows=runs), out, indent=1)
+    found = summary(runs)
+    repeats = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
+    about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {repeats}, '
              f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
     measured_tables.publish(options, 'codes', rows(found), about)
     plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))

@@ -12,7 +12,6 @@ import subprocess
 import numpy as np
 import pytest
 import yade
-import yade.config
 import yade.wrapper as w
 from yade import pack, utils
 from yade.minieigenHP import Vector3
@@ -125,10 +124,8 @@ def testDoSort(collider, verletDist):
 
 kHere = os.path.dirname(os.path.abspath(__file__))
 # Scenes of threads_scene.py: the least number of interactions, or of contacts where bodies are stirred.
-kScenes = dict(gas=500, mixed=500, periodic=500, stirred=1600, mindlin=1600, viscoelastic=1600, NewtonIntegrator=0,
+kScenes = dict(gas=500, mixed=500, periodic=500, stirred=1600, mindlin=1600, viscoelastic=1600, cohesive=1600, NewtonIntegrator=0,
                CurveIntegrator=0)
-if yade.config.version < '2025':  # later versions: by YADE's law
-    kScenes['cohesive'] = 1600
 
 
 @functools.cache

@@ -58,13 +58,13 @@ def stirred(collider, kind):
         functors = [w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=True)], \
             [w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]
     else:
-        functors = [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]
+        functors = [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack(traceEnergy=True)]
     loop = w.CurveLoop([spheres], *functors)
     scenes.setEngines(collider, interactionLoop=loop)
     for number, steps in enumerate((1, 1, 60, 60), 1):
         O.run(steps, True)
         assert loop.threads == O.numThreads and loop.fastForces == O.interactions.countReal()
-        yield moment(hasForces=True)
+        yield moment(hasForces=True) | dict(O.energy.items(), lost=str(getattr(functors[1][0], 'plasticDissipation', str)()))
         O.bodies.erase(5 * steps)
         scenes.addSpheres([(6, 6, 10 + 2 * number)], [.5], dynamic=True)
 
