@@ -12,6 +12,8 @@
 // space of an object that ended before is not used again: all objects are moved anew when enough of
 // them are scattered.
 
+#include <malloc.h>
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -101,6 +103,9 @@ void moveInto(BlockFiller& filler, yade::shared_ptr<Base>& pointer, const Copy& 
   copy(static_cast<Object&>(*pointer), *moved);
   pointer = moved;
 }
+
+/// The space of moved objects, to the system: the next move needs as much again.
+inline void returnFreed() { malloc_trim(0); }
 
 /// Determines when objects that a loop visits are moved together.
 class ScatterWatch {

@@ -98,7 +98,10 @@ void BodyMemory::endStep(yade::Scene& scene) {
     for (const auto& body : scene.bodies->body)
       if (body) visit(body->state.get());
   };
-  if (states_.endStep(kBodyBytes, visitAll)) moveTogether(scene);
+  if (states_.endStep(kBodyBytes, visitAll)) {
+    moveTogether(scene);
+    returnFreed();
+  }
 }
 
 }  // namespace yadefrag

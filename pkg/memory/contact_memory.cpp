@@ -73,7 +73,10 @@ void ContactMemory::endStep(yade::Scene& scene) {
     for (const auto& contact : *scene.interactions)
       if (contact->isReal()) visit(contact->geom.get());
   };
-  if (geometries_.endStep(kContactBytes<Geom, Phys>, visitAll)) moveTogether<Geom, Phys>(scene);
+  if (geometries_.endStep(kContactBytes<Geom, Phys>, visitAll)) {
+    moveTogether<Geom, Phys>(scene);
+    returnFreed();
+  }
 }
 
 template void ContactMemory::endStep<yade::ScGeom, yade::FrictPhys>(yade::Scene& scene);
