@@ -20,7 +20,8 @@ from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
 from yadefrag.studies.runs import Finished, counted, jobOf, keyOf, runAll
-from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases
+from yadefrag.studies.tradeoff_table import (SEED, Table, TradeoffRow, TradeoffTable, columnsOf, describe,
+                                              namesOfCases)
 
 _REPEATABLE = ('not run', 'ok')
 
@@ -83,7 +84,7 @@ def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | 
     return table
 
 
-def requireFiles(table: Any, files: File | None) -> None:
+def requireFiles(table: Table, files: File | None) -> None:
     """OSError for a file that the table could not write after the runs."""
     for name in () if files is None else table.namesOfFiles(files):
         requireWritable(name)
@@ -98,9 +99,9 @@ def writeTable(table: Any, files: File | None) -> None:
         warn('the table could not be written: %s.' % error)
 
 
-def checkChoice(name: Any, value: Any, argument: str = 'vary', columns: Sequence[str] = COLUMNS) -> Any:
+def checkChoice(name: Any, value: Any, argument: str = 'vary', row: type[Any] = TradeoffRow) -> Any:
     """`value`, as a plain number or text; ValueError with the argument if it is neither."""
-    if not isinstance(name, str) or name in columns:
+    if not isinstance(name, str) or name in columnsOf(row):
         raise ValueError('%s has the choice %s, a name must be a text that is no other column of '
                          'the table.' % (argument, shown(name)))
     name, value = text('the name of a choice', name), plain(value)
