@@ -40,7 +40,7 @@ def readLayers(name: str, tolerance: float | None, chosen: Collection[str]) -> d
             found.leftOut['entities of type %s' % entity.dxftype()] += 1
             continue
         found.lines += [_plane(line) for line in lines]
-        found.leftOut['widths of polylines'] += _isWide(entity)
+        found.leftOut['widths of polylines'] += getattr(entity, 'has_width', False)
     for layer, leftOut in walk.leftOut.items():
         walk.of(layer).leftOut += leftOut
     return walk.found
@@ -62,16 +62,6 @@ def _document(ezdxf, name):
 def _attribute(entity, key, default):
     """ezdxf knows no attributes of some entities, such as tables."""
     return entity.dxf.get(key, default) if entity.dxf.is_supported(key) else default
-
-
-def _isWide(entity):
-    widths = []
-    if entity.dxftype() == 'LWPOLYLINE':
-        widths = [entity.dxf.get('const_width', 0), *(w for p in entity.get_points('se') for w in p)]
-    elif entity.dxftype() == 'POLYLINE':
-        keys = ('default_start_width', 'default_end_width', 'start_width', 'end_width')
-        widths = [_attribute(one, key, 0) for one in (entity, *entity.vertices) for key in keys]
-    return any(widths)
 
 
 class _Walk:
