@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy
 
-from yadefrag.arguments import ArrayLike, File, path, plain, refuse, shown, shownPath, text, whole
+from yadefrag.arguments import ArrayLike, File, array, path, plain, refuse, shown, shownPath, text, whole
 from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
@@ -153,6 +153,7 @@ def _reference(reference):
         return {name: checkChoice(name, value) for name, value in reference.items()}
     if isinstance(reference, str) and reference == 'finest':
         return reference
+    numbersRead: numpy.ndarray | None
     if isinstance(reference, (str, os.PathLike)):
         try:
             with warnings.catch_warnings():
@@ -162,11 +163,8 @@ def _reference(reference):
             raise ValueError('reference is %s, which is not a file of numbers: %s.' %
                              (shown(str(reference)), str(error).rstrip('.')[:120])) from None
     else:
-        try:
-            numbersRead = numpy.asarray(reference, dtype=float)
-        except (TypeError, ValueError, OverflowError):
-            numbersRead = numpy.array([math.nan])
-    if numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
+        numbersRead = array(reference, float)
+    if numbersRead is None or numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
         refuse('reference', reference, "finite numbers, a file of them, 'finest' or a dict of choices")
     return numbersRead
 
