@@ -184,13 +184,13 @@ def _setErrors(table, right, settings):
     of = {id(row): setting for row, setting in zip(table.rows, settings)}
     for case, rows in table.cases():
         good = [row for row in rows if row.result == 'ok']
+        reference: Any = None
         if isinstance(right, str):
-            reference = _finest(good)
+            reference = min(good, default=None, key=lambda row: (
+                row.settings.get('size', 0), row.settings.get('timeStep', 0), -row.wall))
         elif isinstance(right, dict):
             wanted = keyOf({**case, **right})
             reference = next(row for row in table.rows if keyOf(of[id(row)]) == wanted)
-        else:
-            reference = None
         if isinstance(right, dict) and reference.result != 'ok':
             for other in good:
                 other.message = 'the reference (%s) has no value.' % describe(right)
@@ -200,13 +200,6 @@ def _setErrors(table, right, settings):
         value = right if reference is None else numpy.asarray(reference.value)
         for row in good:
             row.error, row.message = _error(numpy.asarray(row.value), value)
-
-
-def _finest(rows):
-    """The row that is the reference if no other is given; None without rows."""
-    if not rows:
-        return None
-    return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0), -row.wall))
 
 
 def _error(value, right):
