@@ -61,11 +61,14 @@ def callOf(function):
 
 
 def ownMembers(of):
-    """Public members that are not those of YADE's base classes."""
-    known = set()
-    for base in of.__mro__[1:]:
-        known.update(vars(base))
-    return sorted(name for name in vars(of) if not name.startswith('_') and name not in known)
+    """{name: member}: public ones that are not those of YADE's base classes."""
+    own, known = {}, set()
+    for base in of.__mro__[::-1]:
+        if base is of or base.__module__.startswith('yadefrag.'):
+            own.update(vars(base))
+        else:
+            known.update(vars(base))
+    return {name: own[name] for name in sorted(own) if not name.startswith('_') and name not in known}
 
 
 def describe(name, of):
@@ -76,8 +79,7 @@ def describe(name, of):
     yield f'### `{name}{signature}`\n\n{text(of)}\n'
     if not inspect.isclass(of):
         return
-    for member in ownMembers(of):
-        what = vars(of)[member]
+    for member, what in ownMembers(of).items():
         try:
             call = callOf(what) if callable(what) else ''
         except ValueError:

@@ -77,16 +77,11 @@ def derivedFrom():
     return set(re.findall(r'ARCHIVES\(yade::(\w+)\)', ARCHIVES.read_text()))
 
 
-def isSame(declared, measured):
-    """A pure function has no name in the dump; its place follows from the classes that override
-    it."""
-    return declared in (measured, '__cxa_pure_virtual')
-
-
 def firstDifference(functions, there):
-    """Index of the first function that differs from the measured one; None if there is none."""
+    """Index of the first function that differs from the measured one; None if there is none. A pure function has no
+    name in the dump; its place follows from the classes that override it."""
     return next((i for i, function in enumerate(functions)
-                 if i >= len(there) or not isSame(function, there[i])), None)
+                 if i >= len(there) or function not in (there[i], '__cxa_pure_virtual')), None)
 
 
 def differences(declared, measured, complete):

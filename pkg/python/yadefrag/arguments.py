@@ -151,7 +151,7 @@ def numbersOf(value: Any, count: int) -> tuple[float, ...] | None:
     return result if len(result) == len(found) == count else None
 
 
-def pair(name: str, value: object, right: str = 'a pair of numbers') -> tuple[float, float]:
+def pair(name: str, value: object, right: str = 'a pair of numbers (x, y)') -> tuple[float, float]:
     """Two finite floats."""
     result = numbersOf(value, 2)
     if result is None:

@@ -58,7 +58,7 @@ def test_dxfOldPolylinesEllipsesBlocksAndMirrors(folder):
     def draw(document):
         space = document.modelspace()
         space.add_polyline2d([(0, 0, 0), (4, 0, 1), (4, 4, 0), (0, 4, 0)], format='xyb', close=True)
-        space.add_ellipse((20, 0), (0, 6), .5)
+        space.add_ellipse((20, 0), (0, 6), .5, 11.57230643490451, 17.855491742084098)  # a full turn, but for rounding
         block = document.blocks.new('hole')
         block.add_circle((0, 0), 1)
         space.add_blockref('hole', (20, 1), dxfattribs=dict(xscale=.5, yscale=.5))

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from yadefrag.arguments import FESolver, File, Nodes, isWhole, path, plain, refuse, shown
+from yadefrag.arguments import FESolver, File, Nodes, array, isWhole, path, plain, refuse, shown
 from yadefrag.fe.contents import betweenSteps, existingBody, isBody, requireSolver
 from yadefrag.fe.motions import chosenNodes
 from yadefrag.files import writeColumns
@@ -86,17 +86,16 @@ def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[
         if own.drawn:
             return own.drawn(values), own.ofNodes
         return numpy.linalg.norm(values, axis=1) if values.ndim == 2 else values, own.ofNodes
-    try:
-        values = numpy.asarray(field, dtype=float)
-    except (TypeError, ValueError, OverflowError):
+    given = array(field, float)
+    if given is None:
         refuse('field', field, 'a name, an array or None')
     nodes, triangles = len(fe.nodes), len(fe.triangles)
-    if values.shape == (triangles,):
-        return values, False
-    if values.shape == (nodes,):
-        return values, True
+    if given.shape == (triangles,):
+        return given, False
+    if given.shape == (nodes,):
+        return given, True
     raise ValueError('field has the shape %s, it must be one number for each of the %d triangles '
-                     'or of the %d nodes.' % (shown(values.shape), triangles, nodes))
+                     'or of the %d nodes.' % (shown(given.shape), triangles, nodes))
 
 
 def reaction(self: FESolver, nodes: int | Nodes) -> tuple[float, float]:

@@ -11,8 +11,7 @@ from typing import Any
 import numpy
 
 from yadefrag import _yadefrag
-from yadefrag.arguments import (ArrayLike, Loop, listOf, number, pair, pointsOf, positive, real, refuse, shown,
-                                whole)
+from yadefrag.arguments import ArrayLike, Loop, listOf, number, pair, pointsOf, positive, shown, whole
 from yadefrag.messages import shapely, treeOf
 
 CIRCLE_POINTS = 64
@@ -24,27 +23,14 @@ _WORKS = 'voronoi works'
 _INSIDE, _ON_OUTLINE, _CORNER = range(3)  # a corner of a grain; a higher one does not move to a lower one
 
 
-def _pair(name, value):
-    return pair(name, value, 'a pair of numbers (x, y)')
-
-
-def _length(name, value):
-    length = real(value)
-    if length is None:
-        refuse(name, value, 'a number of metres')
-    if not (math.isfinite(length) and length > 0):
-        raise ValueError('%s is %s m, it must be positive and finite.' % (name, shown(value)))
-    return length
-
-
 def rectangle(low: ArrayLike, high: ArrayLike) -> Loop:
     """The four corners of an axis-parallel rectangle from its lower left and upper right corner
     (m).
 
     ValueError unless `high` is above and to the right of `low`.
     """
-    left, bottom = _pair('low', low)
-    right, top = _pair('high', high)
+    left, bottom = pair('low', low)
+    right, top = pair('high', high)
     if not (left < right and bottom < top):
         raise ValueError('high is %s, it must be above and to the right of low, which is %s.' %
                          (shown(high), shown(low)))
@@ -60,8 +46,8 @@ def circle(centre: ArrayLike, radius: float, n: int | None = None) -> Loop:
     64 points. Points closer than `size` make smaller triangles.
     ValueError for a radius that is not positive or fewer than 3 points.
     """
-    x, y = _pair('centre', centre)
-    radius = _length('radius', radius)
+    x, y = pair('centre', centre)
+    radius = positive('radius', radius, 'm')
     count = CIRCLE_POINTS if n is None else whole('n', n, 3, 'a whole number of at least 3 points', MOST_POINTS)
     angles = [2 * math.pi * i / count for i in range(count)]
     return [(x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles]
@@ -72,8 +58,7 @@ def ring(centre: ArrayLike, inner: float, outer: float, n: int | None = None) ->
 
     Otherwise as `circle`: `fe.addPolygon(*ring((0, 0), .8, 1), size=.05, ...)`.
     """
-    inner = _length('inner', inner)
-    outer = _length('outer', outer)
+    inner, outer = positive('inner', inner, 'm'), positive('outer', outer, 'm')
     if not inner < outer:
         raise ValueError('inner is %g m, it must be less than outer, which is %g m.' % (inner, outer))
     return circle(centre, outer, n), [circle(centre, inner, n)]

@@ -258,13 +258,9 @@ def _minAngle(self):
         corners = self.nodes[self.triangles[shownTriangles(self)]]
     if not len(corners):
         return math.inf
-    edges = numpy.roll(corners, -1, axis=1) - corners
-    lengths = numpy.linalg.norm(edges, axis=2)
-    a, b, c = lengths.T
-    # The smallest angle is opposite to the shortest edge; by the law of cosines.
-    short, middle, long = numpy.sort(numpy.stack([a, b, c]), axis=0)
-    cosine = (middle**2 + long**2 - short**2) / (2 * middle * long)
-    return float(numpy.arccos(numpy.clip(cosine, -1, 1)).min())
+    after, before = (numpy.roll(corners, shift, axis=1) - corners for shift in (-1, 1))
+    crosses = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
+    return float(numpy.arctan2(abs(crosses), (after * before).sum(axis=2)).min())
 
 
 def install() -> None:

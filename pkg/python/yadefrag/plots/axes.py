@@ -14,6 +14,7 @@ from yadefrag.arguments import FESolver, refuse
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MOST_PANELS = 12  # in one picture
 # Twelve for curves in one picture. Any two differ by at least 0.25 in red, green and blue together.
@@ -29,7 +30,7 @@ def axesOf(ax: object) -> Axes:
     """`ax`, or, for None, axes of a new figure; ValueError if it is not an Axes of Matplotlib."""
     from matplotlib.axes import Axes
     if ax is None:
-        return _figure(8, 6).add_subplot()
+        return newFigure(8, 6).add_subplot()
     if not isinstance(ax, Axes):
         refuse('ax', ax, "Matplotlib's axes")
     return ax
@@ -61,12 +62,12 @@ def newPanels(count: int, width: float, height: float) -> list[Axes]:
     across, high = panelSize(width, height, 9 if count == 1 or _isWide(width, height) else 7.2)
     rows, columns = (count, 1) if _isWide(width, height) else (1, count)
     # Compressed axes below each other would cover the labels of the bars between them.
-    figure = _figure(across * columns, high * rows, 'constrained' if rows > 1 else 'compressed')
+    figure = newFigure(across * columns, high * rows, 'constrained' if rows > 1 else 'compressed')
     return list(figure.subplots(rows, columns, squeeze=False).flat)
 
 
-def _figure(width, height, layout='compressed'):
-    """Without pyplot: a picture for a file must not need, or open, a window."""
+def newFigure(width: float, height: float, layout: str = 'compressed') -> Figure:
+    """Of (inches), without pyplot: a picture for a file must not need, or open, a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     # Both leave labels room; the compressed one also moves axes of a fixed ratio together.

@@ -12,7 +12,7 @@ from yade.wrapper import Omega
 from yadefrag.arguments import FESolver, File, flag, isWhole, path, plain, refuse, shownPath
 from yadefrag.fe.contents import betweenSteps, existingBody, requireSolver
 from yadefrag.files import appendText, savePicture, writeColumns, writeText
-from yadefrag.plots.axes import DISTINCT, axesOf
+from yadefrag.plots.axes import DISTINCT, axesOf, newFigure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -168,9 +168,7 @@ def plotFracture(file: File, picture: File | None = None) -> tuple[Axes, Axes]:
     """
     data = _recorded(file)
     time = 1e6 * data['time (s)']
-    upper = axesOf(None)
-    figure = upper.figure
-    upper.remove()
+    figure = newFigure(8, 6)
     upper, lower = figure.subplots(2, 1, sharex=True)
     for name, colour, style in zip(('cracks', 'segments', 'fragments', 'open cracks'),
                                    DISTINCT[len(_ENERGIES):] + DISTINCT[len(_ENERGIES):], ('-', '-', '-', '--')):

@@ -14,7 +14,7 @@ from yadefrag.fe.contents import betweenSteps, requireNoStep, requireSolver, sho
 from yadefrag.fe.fields import FIELDS, fieldValues, nameOf
 from yadefrag.files import replacing, requireWritable, savePicture
 from yadefrag.plots.axes import (MOST_PANELS, CrackLines, YadeBodies, axesOf, barSettings, damageBar, fragmentColours,
-                                 newPanels, palette, panelSize)
+                                 newFigure, newPanels, palette, panelSize)
 from yadefrag.scene.lifecycle import runPart
 
 if TYPE_CHECKING:
@@ -236,8 +236,6 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
     .gif, an invalid window; OSError for a file that cannot be written.
     """
     from matplotlib.animation import PillowWriter
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
     _requireBodies(fe)
     if field is not None and not isinstance(field, str):
@@ -255,8 +253,7 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
     requireNoStep('animate')
     requireWritable(name)
     sides = high[0] - low[0], high[1] - low[1]
-    figure = Figure(figsize=panelSize(*sides), layout='constrained')
-    FigureCanvasAgg(figure)
+    figure = newFigure(*panelSize(*sides), 'constrained')
     writer = PillowWriter(fps=rate)
     writer.setup(figure, name, dpi=80)
     frames, colours = 0, None

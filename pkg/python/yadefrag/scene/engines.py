@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy
 
 from yade import utils, wrapper
-from yadefrag.arguments import ArrayLike, FESolver, flag, number, numbersOf, refuse
+from yadefrag.arguments import ArrayLike, FESolver, flag, listOf, number, numbersOf, refuse
 
 # Shapes of YADE, besides spheres, that engines(spheres=True) has functors for.
 _WITH_FUNCTORS = ('Box', 'Facet', 'Wall')
@@ -148,10 +148,7 @@ def inCurveOrder(bodies: Iterable[T]) -> list[T]:
     bodies. For bodies created in another order, the interaction loop gains as much time as the
     integrator loses. Paper section 4.2 (Diekmann et al. 2000).
     """
-    try:
-        bodies = list(bodies)
-    except TypeError:
-        refuse('bodies', bodies, 'a sequence of bodies, or of places')
+    bodies = listOf('bodies', bodies, 'a sequence of bodies, or of places')
     if not bodies:
         return bodies
     places = numpy.array([_place(body, number) for number, body in enumerate(bodies)])

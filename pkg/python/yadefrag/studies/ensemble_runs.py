@@ -8,7 +8,7 @@ import numpy
 
 from yadefrag.arguments import File, isWhole, plain, refuse, shown, text, whole
 from yadefrag.messages import passOn
-from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
+from yadefrag.studies.ensemble_table import EnsembleRow, EnsembleTable
 from yadefrag.studies.runs import Finished, counted, jobOf, runAll
 from yadefrag.studies.scene_choices import Choices
 from yadefrag.studies.tradeoff_grid import checkChoice, requireFiles, writeTable
@@ -79,7 +79,7 @@ def _setting(row):
         if not isWhole(row):
             raise ValueError('runs has the seed %s, it must be a whole number, or a dict.' % shown(row))
         row = dict(seed=row)
-    return {name: checkChoice(name, value, 'runs', COLUMNS) for name, value in row.items()}
+    return {name: checkChoice(name, value, 'runs', EnsembleRow) for name, value in row.items()}
 
 
 def _listOf(values):

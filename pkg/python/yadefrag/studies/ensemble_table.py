@@ -5,21 +5,20 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy
 
-from yadefrag.arguments import ArrayLike, File, array, number, path, real, refuse, text
+from yadefrag.arguments import ArrayLike, File, array, number, real, refuse, text
 from yadefrag.files import savePicture
 from yadefrag.messages import needed
 from yadefrag.plots.axes import DISTINCT, axesOf
-from yadefrag.studies.tradeoff_table import describe, grouped, samples, varying, writeRows
+from yadefrag.studies.tradeoff_table import Table, describe, grouped, samples, varying
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLUMNS = ('result', 'value', 'steps', 'wall', 'message', 'seconds', 'warnings')
 _PLACES = 200  # points of a curve
 
 
@@ -53,7 +52,7 @@ class EnsembleRow:
         self.warnings = list(found.get('warnings', ()))
 
 
-class EnsembleTable:
+class EnsembleTable(Table):
     """rows (list of EnsembleRow), title; rows without a value are not part of means.
 
     A band is the confidence band of the mean at each point separately: if the values of the runs are
@@ -61,11 +60,7 @@ class EnsembleTable:
     (Student's t distribution). Numbers measured in one run may depend on each other; runs do not.
     """
 
-    def __init__(self, rows: Sequence[EnsembleRow], title: str = '') -> None:
-        isRight = isinstance(rows, (list, tuple)) and all(isinstance(r, EnsembleRow) for r in rows)
-        if not isRight:
-            refuse('rows', rows, 'a list of EnsembleRow')
-        self.rows, self.title = list(rows), text('title', title)
+    _ROW, _ENDINGS = EnsembleRow, ('.csv', '.png')
 
     def __str__(self) -> str:
         """A line for each row, and the means of the runs that differ in nothing but seeds and samples."""
@@ -170,10 +165,6 @@ class EnsembleTable:
         names = ('place', 'mean', 'low', 'high')
         return numpy.array(list(zip(*columns)), dtype=[(name, float) for name in names])
 
-    def csv(self, file: File) -> None:
-        """Writes all rows: the settings, then COLUMNS; values as JSON, an empty cell for None."""
-        writeRows(file, self.rows, COLUMNS)
-
     def plot(self, file: File | None = None, ax: Axes | None = None, by: str | None = None,
              confidence: float = .95, label: str = 'measured value') -> Axes:
         """Draws the table; returns Matplotlib's axes.
@@ -224,11 +215,6 @@ class EnsembleTable:
         names = self.quantities()
         if self.good():
             (self.of(names[0]) if names else self).plot(picture, label=names[0] if names else 'measured value')
-
-    @staticmethod
-    def namesOfFiles(files: File) -> list[str]:
-        """Names of the files that `write` writes."""
-        return [path('files', files) + ending for ending in ('.csv', '.png')]
 
 
 def _meanText(line, among):

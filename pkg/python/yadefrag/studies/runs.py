@@ -9,7 +9,6 @@ import json
 import math
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -21,7 +20,6 @@ from yadefrag.studies.tradeoff_table import describe
 INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
 _HERE = os.path.dirname(os.path.realpath(run_process.__file__))
 _MOST_SECONDS = 1e9  # longest time limit of a process
-_POLL = .02  # s between two checks of an executor's runs
 # Workers are plain Python, which cannot import this package without YADE.
 _BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
 
@@ -78,8 +76,8 @@ def runAll(rows: list[tuple[Any, dict[str, Any]]], job: dict[str, Any], finished
     """Gives the row of each pair (row, key in `finished`, with its `setting`) the result of its run; does the runs that
     are not finished.
 
-    executor  None: on this machine, `workers` at a time; or one with `submit`, whose futures have
-              `done`, `result` and `cancel`. A lost worker's run has failed, with the reason.
+    executor  None: on this machine, `workers` at a time; or one with `submit`, whose futures are those of
+              concurrent.futures. A lost worker's run has failed, with the reason.
               KeyboardInterrupt cancels the runs that have not begun, and ends those on this machine
     """
     due = []
@@ -115,17 +113,13 @@ def runAll(rows: list[tuple[Any, dict[str, Any]]], job: dict[str, Any], finished
 
 
 def _take(futures, take):
-    """Results as they come; futures of some executors can only be asked."""
-    waiting = dict(enumerate(futures))
+    """Results as they come."""
+    places = {future: place for place, future in enumerate(futures)}
     try:
-        while waiting:
-            ended = [place for place, future in waiting.items() if future.done()]
-            for place in ended:
-                take(place, _resultOf(waiting.pop(place)))
-            if not ended:
-                time.sleep(_POLL)
+        for future in concurrent.futures.as_completed(places):
+            take(places[future], _resultOf(future))
     finally:
-        for future in waiting.values():
+        for future in futures:
             future.cancel()
 
 

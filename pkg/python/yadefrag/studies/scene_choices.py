@@ -14,6 +14,7 @@ from yadefrag.arguments import FEMat, FESolver
 from yadefrag.fe.contents import requireSolver
 
 COLLIDERS = ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider', 'InsertionSortCollider')
+_PROCESSORS = os.cpu_count() or 1
 LINEAR_VISCOSITY, QUADRATIC_VISCOSITY = .06, 1.2  # usual coefficients of bulk viscosity
 
 
@@ -45,10 +46,8 @@ KNOWN = {
     'bulkViscosity': (lambda v: _isNumber(v) and v >= 0,
                       '0 or a positive multiple of the usual bulk viscosity'),
     'fracture': (_isOneOf('none', 'instant', 'cohesive'), "'none', 'instant' or 'cohesive'"),
-    'threads': (lambda v: isinstance(v, int) and not isinstance(v, bool)
-                and 1 <= v <= (os.cpu_count() or 1),
-                'a whole number from 1 to the %d processors of this machine' %
-                (os.cpu_count() or 1)),
+    'threads': (lambda v: isinstance(v, int) and not isinstance(v, bool) and 1 <= v <= _PROCESSORS,
+                'a whole number from 1 to the %d processors of this machine' % _PROCESSORS),
 }
 
 
@@ -104,10 +103,8 @@ class Choices:
     def solver(self, **settings: Any) -> FESolver:
         """An FESolver with `settings`; passes, halo, contactTolerance and bulk viscosity as in the setting.
         ValueError as FESolver."""
-        settings.update(passes=self.get('passes', settings.get('passes', 1)),
-                        halo=self.get('halo', settings.get('halo', 0)),
-                        contactTolerance=self.get('contactTolerance',
-                                                  settings.get('contactTolerance', 'default')))
+        for name, usual in (('passes', 1), ('halo', 0), ('contactTolerance', 'default')):
+            settings[name] = self.get(name, settings.get(name, usual))
         times = self.get('bulkViscosity')
         if times is not None:
             settings.update(linearViscosity=times * LINEAR_VISCOSITY, quadraticViscosity=times * QUADRATIC_VISCOSITY)

@@ -15,12 +15,13 @@ from typing import Any
 
 import numpy
 
-from yadefrag.arguments import ArrayLike, File, path, plain, refuse, shown, shownPath, text, whole
+from yadefrag.arguments import ArrayLike, File, array, path, plain, refuse, shown, shownPath, text, whole
 from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
 from yadefrag.studies.runs import Finished, counted, jobOf, keyOf, runAll
-from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases
+from yadefrag.studies.tradeoff_table import (SEED, Table, TradeoffRow, TradeoffTable, columnsOf, describe,
+                                              namesOfCases)
 
 _REPEATABLE = ('not run', 'ok')
 
@@ -83,7 +84,7 @@ def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | 
     return table
 
 
-def requireFiles(table: Any, files: File | None) -> None:
+def requireFiles(table: Table, files: File | None) -> None:
     """OSError for a file that the table could not write after the runs."""
     for name in () if files is None else table.namesOfFiles(files):
         requireWritable(name)
@@ -98,9 +99,9 @@ def writeTable(table: Any, files: File | None) -> None:
         warn('the table could not be written: %s.' % error)
 
 
-def checkChoice(name: Any, value: Any, argument: str = 'vary', columns: Sequence[str] = COLUMNS) -> Any:
+def checkChoice(name: Any, value: Any, argument: str = 'vary', row: type[Any] = TradeoffRow) -> Any:
     """`value`, as a plain number or text; ValueError with the argument if it is neither."""
-    if not isinstance(name, str) or name in columns:
+    if not isinstance(name, str) or name in columnsOf(row):
         raise ValueError('%s has the choice %s, a name must be a text that is no other column of '
                          'the table.' % (argument, shown(name)))
     name, value = text('the name of a choice', name), plain(value)
@@ -152,6 +153,7 @@ def _reference(reference):
         return {name: checkChoice(name, value) for name, value in reference.items()}
     if isinstance(reference, str) and reference == 'finest':
         return reference
+    numbersRead: numpy.ndarray | None
     if isinstance(reference, (str, os.PathLike)):
         try:
             with warnings.catch_warnings():
@@ -161,11 +163,8 @@ def _reference(reference):
             raise ValueError('reference is %s, which is not a file of numbers: %s.' %
                              (shown(str(reference)), str(error).rstrip('.')[:120])) from None
     else:
-        try:
-            numbersRead = numpy.asarray(reference, dtype=float)
-        except (TypeError, ValueError, OverflowError):
-            numbersRead = numpy.array([math.nan])
-    if numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
+        numbersRead = array(reference, float)
+    if numbersRead is None or numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
         refuse('reference', reference, "finite numbers, a file of them, 'finest' or a dict of choices")
     return numbersRead
 
@@ -185,13 +184,13 @@ def _setErrors(table, right, settings):
     of = {id(row): setting for row, setting in zip(table.rows, settings)}
     for case, rows in table.cases():
         good = [row for row in rows if row.result == 'ok']
+        reference: Any = None
         if isinstance(right, str):
-            reference = _finest(good)
+            reference = min(good, default=None, key=lambda row: (
+                row.settings.get('size', 0), row.settings.get('timeStep', 0), -row.wall))
         elif isinstance(right, dict):
             wanted = keyOf({**case, **right})
             reference = next(row for row in table.rows if keyOf(of[id(row)]) == wanted)
-        else:
-            reference = None
         if isinstance(right, dict) and reference.result != 'ok':
             for other in good:
                 other.message = 'the reference (%s) has no value.' % describe(right)
@@ -201,13 +200,6 @@ def _setErrors(table, right, settings):
         value = right if reference is None else numpy.asarray(reference.value)
         for row in good:
             row.error, row.message = _error(numpy.asarray(row.value), value)
-
-
-def _finest(rows):
-    """The row that is the reference if no other is given; None without rows."""
-    if not rows:
-        return None
-    return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0), -row.wall))
 
 
 def _error(value, right):

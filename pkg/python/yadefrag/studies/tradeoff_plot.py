@@ -5,19 +5,12 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FuncFormatter, NullFormatter
-from matplotlib.transforms import Bbox
-
 from yadefrag.arguments import File
-
 from yadefrag.files import savePicture
 from yadefrag.plots.axes import axesOf
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from yadefrag.studies.tradeoff_table import TradeoffTable
 
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
 # Possible positions of a point's text: offset in points, alignment.
@@ -26,8 +19,8 @@ _SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center'
           (0, 16, 'center', 'bottom'), (0, -16, 'center', 'top')]
 
 
-def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, label: str | None, names: bool) -> Axes:
-    """See TradeoffTable.plot."""
+def plot(table: Any, file: File | None, ax: Axes | None, time: str, label: str | None, names: bool) -> Axes:
+    """See TradeoffTable.plot, whose table this is."""
     front = table.front(time)
     shown: list[Any] = [row for row in table.rows if row.error is not None and not table.isReference(row)]
     if not shown:
@@ -69,6 +62,8 @@ def _marks(ax, points, isNeeded):
 
     A text without such a position is left out; if it `isNeeded`, it is drawn anyway.
     """
+    from matplotlib.patheffects import withStroke
+    from matplotlib.transforms import Bbox
     ax.figure.canvas.draw()
     bounds = ax.get_window_extent()
     places = [ax.transData.transform(at) for at, _, _ in points]
@@ -94,6 +89,7 @@ def _marks(ax, points, isNeeded):
 
 
 def _plainTicks(axis):
+    from matplotlib.ticker import FuncFormatter, NullFormatter
     low, high = axis.get_view_interval()
     axis.set_major_formatter(FuncFormatter(lambda v, _: '%g' % v))
     few = high / low < 30

@@ -1,4 +1,5 @@
-"""The table that tradeoff() returns: rows, Pareto front, CSV, Markdown, plot; runs by what varies between them."""
+"""The table that tradeoff() returns: rows, Pareto front, Markdown, plot; what it has in common with that of ensemble():
+CSV, files, rows by what varies between them."""
 
 from __future__ import annotations
 
@@ -12,11 +13,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from yadefrag.arguments import File, listOf, path, real, refuse, shownPath, text
 from yadefrag.files import writeText
+from yadefrag.studies import tradeoff_plot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message', 'seconds', 'warnings')
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)', 'cpu': 'processor time over simulated time (s/s)'}
 Row = TypeVar('Row', bound=Any)
 SEED = 'seed'  # runs that differ in it only are repetitions
@@ -74,18 +75,56 @@ def describe(settings: dict[str, Any]) -> str:
                      for n, v in settings.items()) or 'as the scene is'
 
 
-class TradeoffTable:
+class Table:
+    """rows (list of _ROW) and title, of tradeoff() or ensemble()."""
+
+    _ROW: type[Any]
+    _ENDINGS: tuple[str, ...]  # of the files that `write` writes
+
+    def __init__(self, rows: Iterable[Any], title: str = '') -> None:
+        self.rows = listOf('rows', rows, 'a list of %s' % self._ROW.__name__)
+        for i, row in enumerate(self.rows):
+            self._requireRow(row, 'rows[%d]' % i)
+        self.title = text('title', title)
+
+    def _requireRow(self, row, name='row'):
+        if not isinstance(row, self._ROW):
+            refuse(name, row, 'of the class %s' % self._ROW.__name__)
+
+    def csv(self, file: File) -> None:
+        """Writes all rows: the settings, then what is known of each run; values as JSON, an empty cell for None."""
+        names, columns = dict.fromkeys(name for row in self.rows for name in row.settings), columnsOf(self._ROW)
+        out = io.StringIO(newline='')
+        writer = csv.writer(out)
+        writer.writerow([*names, *columns])
+        for row in self.rows:
+            cells = [*map(row.settings.get, names), *(getattr(row, column) for column in columns)]
+            writer.writerow(map(_encode, cells))
+        writeText(path('file', file), out.getvalue())
+
+    @classmethod
+    def namesOfFiles(cls, files: File) -> list[str]:
+        """Names of the files that `write` writes."""
+        return [path('files', files) + ending for ending in cls._ENDINGS]
+
+
+def columnsOf(kind: type[Any]) -> tuple[str, ...]:
+    """Names of what a row of this class has beside its settings."""
+    return tuple(one.name for one in dataclasses.fields(kind)[1:])
+
+
+class TradeoffTable(Table):
     """rows (list of TradeoffRow), title, by (names of choices that make another problem), references (rows
     that are the reference for the others of their problem); reference is the first of these, or None.
 
     `read` reads a file written by `csv`; the reference's row is not marked there.
     """
 
+    _ROW, _ENDINGS = TradeoffRow, ('.csv', '.md', '.png')
+
     def __init__(self, rows: Iterable[TradeoffRow], title: str = '', by: str | Sequence[str] = ()) -> None:
-        self.rows = listOf('rows', rows, 'a list of TradeoffRow')
-        for i, row in enumerate(self.rows):
-            _requireRow(row, 'rows[%d]' % i)
-        self.title, self.by, self.references = text('title', title), namesOfCases(by), []
+        super().__init__(rows, title)
+        self.by, self.references = namesOfCases(by), []
 
     @property
     def reference(self) -> TradeoffRow | None:
@@ -125,7 +164,7 @@ class TradeoffTable:
 
     def label(self, row: TradeoffRow) -> str:
         """Difference of a row from the first: 'passes=2'; 'row 1' for that one."""
-        _requireRow(row)
+        self._requireRow(row)
         if not self.rows:
             raise ValueError('the table has no rows.')
         first = self.rows[0].settings
@@ -159,14 +198,10 @@ class TradeoffTable:
 
     def ratio(self, row: TradeoffRow, time: str = 'wall') -> float | None:
         """Time over that of the first row, the median of adjacent runs; None without."""
-        _requireRow(row)
+        self._requireRow(row)
         _requireTime(time)
         pairs = [(a, b) for a, b in zip(getattr(row, time + 's'), getattr(self.rows[0], time + 's')) if b > 0]
         return statistics.median(a / b for a, b in pairs) if pairs else None
-
-    def csv(self, file: File) -> None:
-        """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
-        writeRows(file, self.rows, COLUMNS)
 
     @classmethod
     def read(cls, file: File, title: str = '') -> TradeoffTable:
@@ -179,8 +214,9 @@ class TradeoffTable:
             except csv.Error as error:
                 raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
-        if tuple(head[-len(COLUMNS):]) != COLUMNS:
-            raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(COLUMNS)))
+        columns = columnsOf(TradeoffRow)
+        if tuple(head[-len(columns):]) != columns:
+            raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(columns)))
         rows = [_row(head, line) for line in lines[1:]]
         if None in rows:
             raise ValueError('%s has a damaged row, the one after %d others.' % (shownPath(name), rows.index(None)))
@@ -240,7 +276,6 @@ class TradeoffTable:
         side, all points with enough room have names. `file` is the path of a picture; its ending
         determines the format. ValueError if no row has an error to show.
         """
-        from yadefrag.studies import tradeoff_plot  # Matplotlib only if it is needed
         return tradeoff_plot.plot(self, file, ax, time, _TIMES.get(str(time)), names)
 
     def write(self, files: File, time: str = 'wall') -> None:
@@ -251,11 +286,6 @@ class TradeoffTable:
         if self.front(time):
             self.plot(picture, time=time)
 
-    @staticmethod
-    def namesOfFiles(files: File) -> list[str]:
-        """Names of the files that `write` writes."""
-        return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
-
 
 def namesOfCases(by: str | Sequence[str]) -> tuple[str, ...]:
     """A tuple of names from one or several."""
@@ -263,23 +293,6 @@ def namesOfCases(by: str | Sequence[str]) -> tuple[str, ...]:
     if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
         refuse('by', by, 'the name of a choice, or a list of names')
     return tuple(names)
-
-
-def writeRows(file: File, rows: Sequence[Any], columns: Sequence[str]) -> None:
-    """Writes rows as CSV: their settings, then `columns`; values as JSON, an empty cell for None."""
-    names = dict.fromkeys(name for row in rows for name in row.settings)
-    out = io.StringIO(newline='')
-    writer = csv.writer(out)
-    writer.writerow([*names, *columns])
-    for row in rows:
-        cells = [*map(row.settings.get, names), *(getattr(row, column) for column in columns)]
-        writer.writerow(map(_encode, cells))
-    writeText(path('file', file), out.getvalue())
-
-
-def _requireRow(row, name='row'):
-    if not isinstance(row, TradeoffRow):
-        refuse(name, row, 'a TradeoffRow')
 
 
 def _requireTime(time):
@@ -291,9 +304,9 @@ def _row(head, line):
     """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
     if len(line) != len(head):
         return None
-    cells = [_decode(cell) for cell in line]
-    settings = {n: v for n, v in zip(head, cells[:-len(COLUMNS)]) if v is not None}
-    row = TradeoffRow(settings, **dict(zip(COLUMNS, cells[-len(COLUMNS):])))
+    cells, count = [_decode(cell) for cell in line], len(columnsOf(TradeoffRow))
+    settings = {n: v for n, v in zip(head, cells[:-count]) if v is not None}
+    row = TradeoffRow(settings, *cells[-count:])
     row.message, row.warnings = row.message or '', row.warnings or []
     isRight = (isinstance(row.result, str) and isinstance(row.message, str)
                and all(real(value) is not None or value is None and row.result != 'ok'

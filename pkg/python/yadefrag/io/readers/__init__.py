@@ -119,19 +119,6 @@ def piecesOf(bend: float, tolerance: float, least: int = 1) -> int:
     return max(least, math.ceil(wanted))
 
 
-def bezier(points: ArrayLike, tolerance: float) -> numpy.ndarray:
-    """(n, 2) points of a Bézier curve with 3 or 4 control points, without its first point."""
-    points = numpy.asarray(points, dtype=float)
-    degree = len(points) - 1
-    bends = degree * (degree - 1) * numpy.linalg.norm(numpy.diff(points, n=2, axis=0), axis=1)
-    pieces = piecesOf(bends.max(), tolerance)
-    t = numpy.arange(1, pieces + 1)[:, None] / pieces
-    parts = list(points)
-    while len(parts) > 1:  # de Casteljau's scheme
-        parts = [(1 - t) * a + t * b for a, b in zip(parts, parts[1:])]
-    return parts[0]
-
-
 def ellipticArc(centre: ArrayLike, axes: ArrayLike, start: float, sweep: float, tolerance: float) -> numpy.ndarray:
     """(n + 1, 2) points from the angle `start` over `sweep` (rad) on centre + a·cos + b·sin; `axes`
     are the vectors (a, b). At least eight pieces per turn."""

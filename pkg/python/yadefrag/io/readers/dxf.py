@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection
 
 import numpy
 
-from yadefrag.io.readers import Found, bulge, ellipticArc, needed, piecesOf, refuseFile, requireTolerance
+from yadefrag.io.readers import Found, bulge, ellipticArc, needed, refuseFile, requireTolerance
 
 _PACKAGE = 'python3-ezdxf'
 _SPLINE_PIECES = 16  # minimum between two knots: ezdxf checks the middle of a piece only
@@ -40,7 +40,7 @@ def readLayers(name: str, tolerance: float | None, chosen: Collection[str]) -> d
             found.leftOut['entities of type %s' % entity.dxftype()] += 1
             continue
         found.lines += [_plane(line) for line in lines]
-        found.leftOut['widths of polylines'] += _isWide(entity)
+        found.leftOut['widths of polylines'] += getattr(entity, 'has_width', False)
     for layer, leftOut in walk.leftOut.items():
         walk.of(layer).leftOut += leftOut
     return walk.found
@@ -62,16 +62,6 @@ def _document(ezdxf, name):
 def _attribute(entity, key, default):
     """ezdxf knows no attributes of some entities, such as tables."""
     return entity.dxf.get(key, default) if entity.dxf.is_supported(key) else default
-
-
-def _isWide(entity):
-    widths = []
-    if entity.dxftype() == 'LWPOLYLINE':
-        widths = [entity.dxf.get('const_width', 0), *(w for p in entity.get_points('se') for w in p)]
-    elif entity.dxftype() == 'POLYLINE':
-        keys = ('default_start_width', 'default_end_width', 'start_width', 'end_width')
-        widths = [_attribute(one, key, 0) for one in (entity, *entity.vertices) for key in keys]
-    return any(widths)
 
 
 class _Walk:
@@ -137,7 +127,6 @@ def _moved(entity, matrix):
     """[entities] for a copy that is moved, scaled and turned."""
     if entity.dxftype() not in _READERS:
         return [entity]
-    entities = importlib.import_module('ezdxf.entities')
     tools = importlib.import_module('ezdxf.math.transformtools')
     copy = entity.copy()
     try:
@@ -145,8 +134,12 @@ def _moved(entity, matrix):
         return [copy]
     except tools.NonUniformScalingError:  # a circle becomes an ellipse
         if entity.dxftype() in ('ARC', 'CIRCLE'):
-            return [entities.Ellipse.from_arc(entity).transform(matrix)] if entity.dxf.radius else []
+            return [_ellipseOf(entity).transform(matrix)] if entity.dxf.radius else []
         return [one for part in entity.virtual_entities() for one in _moved(part, matrix)]
+
+
+def _ellipseOf(arc):
+    return importlib.import_module('ezdxf.entities').Ellipse.from_arc(arc)
 
 
 def _isClipped(insert):
@@ -162,25 +155,16 @@ def _plane(points):
 
 
 def _arc(entity, tolerance, name):
+    """Of arcs, circles and ellipses."""
     tolerance = requireTolerance(tolerance, name, 'has curves')
-    radius = abs(entity.dxf.radius)
-    if radius == 0:
-        return []
-    start, end = (0, 360) if entity.dxftype() == 'CIRCLE' else (entity.dxf.start_angle, entity.dxf.end_angle)
-    sweep = math.radians((end - start) % 360 or 360)
-    pieces = piecesOf(radius * sweep**2, tolerance, math.ceil(sweep / (math.pi / 4)))
-    angles = [start + math.degrees(sweep) * k / pieces for k in range(pieces + 1)]
-    points = list(entity.vertices(angles))
-    return [points[:-1] + points[:1] if sweep == 2 * math.pi else points]
-
-
-def _ellipse(entity, tolerance, name):
-    tolerance = requireTolerance(tolerance, name, 'has curves')
-    drawn = entity.dxf
-    start, end = drawn.start_param, drawn.end_param
-    sweep = (end - start) % (2 * math.pi) or 2 * math.pi
-    a, b, centre = ((p.x, p.y) for p in (drawn.major_axis, entity.minor_axis, drawn.center))
-    points = ellipticArc(centre, (a, b), start, sweep, tolerance)
+    if entity.dxftype() != 'ELLIPSE':
+        if entity.dxf.radius == 0:
+            return []
+        entity = _ellipseOf(entity)
+    drawn = entity.construction_tool()
+    sweep = drawn.param_span or 2 * math.pi
+    a, b, centre = ((p.x, p.y) for p in (drawn.major_axis, drawn.minor_axis, drawn.center))
+    points = ellipticArc(centre, (a, b), drawn.start_param, sweep, tolerance)
     if sweep == 2 * math.pi:
         points[-1] = points[0]
     return [points]
@@ -215,5 +199,5 @@ def _polyline(entity, tolerance, name):
 
 
 _READERS: dict[str, Callable] = dict(
-    LINE=lambda entity, *_: [[entity.dxf.start, entity.dxf.end]], ARC=_arc, CIRCLE=_arc, ELLIPSE=_ellipse,
+    LINE=lambda entity, *_: [[entity.dxf.start, entity.dxf.end]], ARC=_arc, CIRCLE=_arc, ELLIPSE=_arc,
     SPLINE=_spline, LWPOLYLINE=_polyline, POLYLINE=_polyline)

@@ -105,8 +105,6 @@ def _geometries(data, leftOut):
             leftOut['features without geometry'] += 1
             return []
         data = data['geometry']
-    if data['type'] == 'GeometryCollection':
-        return [one for part in data['geometries'] for one in _geometries(part, leftOut)]
     return [data]
 
 

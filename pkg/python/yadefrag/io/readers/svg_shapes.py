@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy
 
-from yadefrag.io.readers import Found, bezier, ellipticArc, needed, requireTolerance
+from yadefrag.io.readers import Found, ellipticArc, needed, piecesOf, requireTolerance
 from yadefrag.io.readers.loops import area, around, nested
 
 _FLAT = 1e-12  # of the square of the extent: the area of a line
@@ -174,16 +174,15 @@ def _subpaths(path, tolerance, name):
 
 
 def _curve(segment, tolerance):
-    kind = type(segment).__name__
-    controls: tuple
-    if kind == 'QuadraticBezier':
-        controls = (segment.start, segment.control, segment.end)
-    elif kind == 'CubicBezier':
-        controls = (segment.start, segment.control1, segment.control2, segment.end)
-    else:
+    """(n, 2) without its first point."""
+    if type(segment).__name__ == 'Arc':
         centre, a, b = ((p.x, p.y) for p in (segment.center, segment.prx, segment.pry))
         axes = numpy.subtract(a, centre), numpy.subtract(b, centre)
         points = ellipticArc(centre, axes, segment.get_start_t(), segment.sweep, tolerance)
         points[-1] = segment.end.x, segment.end.y
         return points[1:]
-    return bezier([(p.x, p.y) for p in controls], tolerance)
+    controls = numpy.array([(p.x, p.y) for p in segment])  # of a Bézier curve: three or four
+    degree = len(controls) - 1
+    bends = degree * (degree - 1) * numpy.linalg.norm(numpy.diff(controls, n=2, axis=0), axis=1)
+    pieces = piecesOf(bends.max(), tolerance)
+    return segment.npoint(numpy.arange(1, pieces + 1) / pieces)
