@@ -80,12 +80,13 @@ class ForceContainer {
 
 // The energy table of O.energy.
 class EnergyTracker : public Serializable {
-  alignas(8) unsigned char hidden_[152];
+  alignas(8) unsigned char energies_[64];
 
  public:
+  std::map<string, int> names;
+  vector<bool> resetStep;
   EnergyTracker() = delete;
   ~EnergyTracker() override;
-  void findId(const string& name, int& id, bool reset, bool newIfNotFound);
   Real getItem_py(const string& name);
   void setItem_py(const string& name, Real value);
 };

@@ -43,11 +43,11 @@ class CundallStrack {
   static void addEnergies(Functor& functor, yade::EnergyTracker& tracker,
                           const Contacts& contacts) {
     const auto add = [&](const char* name, int& id, bool isOfStep, const auto& energyOf) {
-      id = -1;  // a script may have cleared O.energy
-      tracker.findId(name, id, isOfStep, true);
-      double sum = tracker.getItem_py(name);
+      double sum = tracker.names.contains(name) ? tracker.getItem_py(name) : 0;
       contacts([&](const ContactEnergy& one) { sum += energyOf(one); });
       tracker.setItem_py(name, sum);
+      id = tracker.names.at(name);
+      if (isOfStep) tracker.resetStep[static_cast<std::size_t>(id)] = true;
     };
     double dissipated = 0;
     contacts([&](const ContactEnergy& one) { dissipated = std::max(dissipated, one.dissipated); });
