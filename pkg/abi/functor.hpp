@@ -287,9 +287,8 @@ class Law2_ScGeom_MindlinPhys_Mindlin : public LawFunctor {
 };
 
 class Law2_ScGeom6D_CohFrictPhys_CohesionMoment : public LawFunctor {
-  alignas(8) unsigned char plasticDissipation_[24];
-
  public:
+  OpenMPAccumulator<Real> plasticDissipation;
   bool neverErase;
   bool always_use_moment_law;
   bool shear_creep;

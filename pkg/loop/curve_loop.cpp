@@ -39,10 +39,10 @@ void ContactLoop::action() try {
   if (size == 0) return;
   threads = threadsFor(size, threadsOf(*this));
   withLaw(*this, *scene, [&]<class Law>(typename Law::Functor* functor) {
-    run(PairStep<Law>(*this, *scene, functor), size);
+    const PairStep<Law> step(*this, *scene, functor);
+    run(step, size);
     if constexpr (kTracesEnergy<Law>) {
-      if (functor && fastForces > 0 && Law(*functor, *scene).tracesEnergy())
-        addEnergies<Law>(*functor);
+      if (fastForces > 0 && step.tracesEnergy()) addEnergies<Law>(*functor);
     }
   });
 } catch (const std::exception& error) {

@@ -89,15 +89,14 @@ class Script:
 
     def ownClass(self, cls, make, owner, name):
         setattr(owner, name, make)
-        self.places.append((owner.id if name != 'phys' else (owner.id1, owner.id2), name, cls))
+        self.places.append((owner.id, name, cls))
 
     def newPhysics(self, cls, factor=1.):
         contact = self.contact()
         self.physics.append(properties(cls, contact.phys, factor))
+        contact.phys = self.physics[-1]
         if cls is Bond:
-            self.ownClass(cls, self.physics[-1], contact, 'phys')
-        else:
-            contact.phys = self.physics[-1]
+            self.places.append(((contact.id1, contact.id2), 'phys', cls))
 
     def append(self, cls=w.Body, number=None):
         body = utils.sphere(Vector3(*self.draw.uniform(2, 5, 2), 30 + .5 * len(O.bodies) % 7), .5)

@@ -122,6 +122,7 @@ def test_energies(way, build):
     assert energies['elastPotential'] > 0 < (energies['plastDissip'] if way[0] == 'O' else traced)
     O.energy.clear()
     O.step()
+    assert ('elastPotential' in O.energy.keys()) == (way == 'traceEnergy')
 
 
 @pytest.mark.parametrize('isSorted', [False, True])
