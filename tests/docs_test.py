@@ -40,6 +40,21 @@ class Manual(unittest.TestCase):
                     with self.subTest(part=part):
                         self.assertTrue(part in text)
 
+    def test_foldersIncludeOnlyThoseBefore(self):
+        before = []
+        for part in ('lib', 'pkg'):
+            page = (ROOT / part / 'README.md').read_text()
+            for folder in re.findall(r'^\| `(\w+)/?` \|', page, re.M):
+                if not (ROOT / part / folder).is_dir():
+                    continue
+                before.append(folder)
+                for file in (ROOT / part / folder).rglob('*.[ch]pp'):
+                    for used in re.findall(r'^#include "(\w+)/', file.read_text(), re.M):
+                        with self.subTest(file=file.name, used=used):
+                            self.assertIn(used, before)
+        self.assertEqual(len(before), len(set(before)))
+        self.assertGreater(len(before), 15)
+
     def test_linksLeadSomewhere(self):
         count = 0
         for page in PAGES:

@@ -7,10 +7,10 @@
 #include <bit>
 #include <cassert>
 
-#include "curve/numbering.hpp"
 #include "figure14/point_search.hpp"
 #include "search/code_directory.hpp"
 #include "search/level_grid.hpp"
+#include "search/numbering.hpp"
 #include "search/sorted_list.hpp"
 
 namespace yadefrag {

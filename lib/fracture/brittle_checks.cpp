@@ -12,7 +12,7 @@
 #include "core/tolerances/fracture.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/material_constants.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 
 namespace yadefrag {
 namespace {

@@ -24,10 +24,10 @@
 #include "core/step_times.hpp"
 #include "core/vec2.hpp"
 #include "core/work_list.hpp"
-#include "dynamics/energy_ledger.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/crack_edges.hpp"
 #include "mesh/model.hpp"
+#include "time/energy_ledger.hpp"
 
 namespace yadefrag {
 

@@ -7,7 +7,7 @@
 #include "core/arrays.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/fracture.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 
 namespace yadefrag {
 

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/explicit_dynamics.hpp"
 #include "fracture/cohesion.hpp"
 #include "fracture/crack_edges.hpp"
 #include "fracture/strength_check.hpp"
 #include "surface/contact_surface.hpp"
+#include "time/explicit_dynamics.hpp"
 
 namespace yadefrag {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/vec2.hpp"
-#include "dynamics/elastic_law.hpp"
+#include "elements/elastic_law.hpp"
 #include "fracture/crack_edges.hpp"
 #include "mesh/body_material.hpp"
 

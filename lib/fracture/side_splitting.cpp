@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "dynamics/element_state.hpp"
-#include "dynamics/flowed_shape.hpp"
+#include "elements/element_state.hpp"
+#include "elements/flowed_shape.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 

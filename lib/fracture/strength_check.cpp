@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/tolerances/fracture.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "fracture/edge_strength.hpp"
 #include "fracture/separation.hpp"
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "dynamics/element_kernel.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_kernel.hpp"
+#include "elements/element_state.hpp"
 #include "fracture/crack_edges.hpp"
 #include "fracture/separation.hpp"
 

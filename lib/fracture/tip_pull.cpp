@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "core/tolerances/fracture.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 
 namespace yadefrag {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/arrays.hpp"
 #include "core/tolerances/dynamics.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/strength_check.hpp"
 

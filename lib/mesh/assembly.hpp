@@ -38,7 +38,7 @@ void lumpMasses(Model& model);
 // --- Initial stress: the stress-free shape of triangles that are stressed in their present shape.
 
 /// The symmetric stretch (xx, yy, xy) that causes a Cauchy stress (Pa; xx, yy, xy, tension
-/// positive) by the material law of dynamics/elastic_law.hpp; no value if a principal stretch
+/// positive) by the material law of elements/elastic_law.hpp; no value if a principal stretch
 /// exceeds tolerance::kMostStretch.
 [[nodiscard]] std::optional<std::array<double, 3>> stretchOf(const ElasticMaterial& material,
                                                              const std::array<double, 3>& stress);
@@ -49,7 +49,7 @@ struct SpatialStretch {
   double across;
 };
 /// The stretches that cause a Cauchy stress in the plane and one across it (Pa), by the law of
-/// materials that yield (dynamics/yield_law.hpp).
+/// materials that yield (elements/yield_law.hpp).
 [[nodiscard]] std::optional<SpatialStretch> stretchOf(const ElasticMaterial& material,
                                                       const std::array<double, 3>& stress,
                                                       double across);

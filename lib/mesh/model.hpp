@@ -93,7 +93,7 @@ struct Triangles {
   [[nodiscard]] bool isDropped(std::size_t element) const { return area[element] == 0; }
 };
 
-/// Computation of forces from the strains of a body's triangles (dynamics/smoothed_law.hpp).
+/// Computation of forces from the strains of a body's triangles (elements/smoothed_law.hpp).
 enum class ElementKind : std::uint8_t {
   kLinear,    ///< constant strain in each triangle
   kSmoothed,  ///< strains averaged at the nodes

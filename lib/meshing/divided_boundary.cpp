@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "meshing/joint_lines.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 
 namespace yadefrag {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "curve/position_code.hpp"
 #include "meshing/mesh_stages.hpp"
 #include "meshing/triangle_quality.hpp"
+#include "search/position_code.hpp"
 
 namespace yadefrag {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "curve/numbering.hpp"
 #include "search/code_level.hpp"
 #include "search/contact_search.hpp"
 #include "search/level_grid.hpp"
+#include "search/numbering.hpp"
 #include "search/row_begins.hpp"
 #include "search/wide_boxes.hpp"
 

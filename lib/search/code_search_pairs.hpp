@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "curve/numbering.hpp"
 #include "search/code_search.hpp"
+#include "search/numbering.hpp"
 
 namespace yadefrag {
 

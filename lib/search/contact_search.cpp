@@ -1,7 +1,7 @@
 #include "search/contact_search.hpp"
 
-#include "curve/numbering.hpp"
 #include "search/hierarchy_search.hpp"
+#include "search/numbering.hpp"
 #include "search/planned_search.hpp"
 
 namespace yadefrag {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/box.hpp"
-#include "curve/position_code.hpp"
+#include "search/position_code.hpp"
 #include "search/search_plan.hpp"
 
 namespace yadefrag {

@@ -12,8 +12,8 @@
 
 #include "core/arrays.hpp"
 #include "core/lanes.hpp"
-#include "curve/numbering.hpp"
 #include "search/filter_box.hpp"
+#include "search/numbering.hpp"
 
 namespace yadefrag {
 

@@ -9,8 +9,8 @@
 #include <cstdint>
 
 #include "core/tolerances/search.hpp"
-#include "curve/position_code.hpp"
 #include "search/filter_box.hpp"
+#include "search/position_code.hpp"
 #include "search/search_plan.hpp"
 
 namespace yadefrag {

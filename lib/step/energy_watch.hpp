@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-#include "dynamics/energy_ledger.hpp"
+#include "time/energy_ledger.hpp"
 
 namespace yadefrag {
 

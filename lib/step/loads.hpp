@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/surface_loads.hpp"
 #include "fracture/fracture.hpp"
+#include "time/surface_loads.hpp"
 
 namespace yadefrag {
 

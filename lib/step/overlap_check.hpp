@@ -14,7 +14,7 @@
 #include "core/ids.hpp"
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {

@@ -18,10 +18,10 @@
 #include "contact/pass_rule.hpp"
 #include "core/box.hpp"
 #include "core/vec2.hpp"
-#include "dynamics/explicit_dynamics.hpp"
 #include "mesh/model.hpp"
 #include "search/contact_search.hpp"
 #include "surface/contact_surface.hpp"
+#include "time/explicit_dynamics.hpp"
 
 namespace yadefrag {
 

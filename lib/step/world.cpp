@@ -11,11 +11,11 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
-#include "dynamics/critical_time_step.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 #include "step/overlap_check.hpp"
+#include "time/critical_time_step.hpp"
 
 namespace yadefrag {
 

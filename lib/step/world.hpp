@@ -14,11 +14,9 @@
 #include "contact/contact.hpp"
 #include "contact/pass_rule.hpp"
 #include "core/step_times.hpp"
-#include "dynamics/element_kernel.hpp"
-#include "dynamics/element_state.hpp"
-#include "dynamics/energy_ledger.hpp"
-#include "dynamics/explicit_dynamics.hpp"
-#include "dynamics/plastic_flow.hpp"
+#include "elements/element_kernel.hpp"
+#include "elements/element_state.hpp"
+#include "elements/plastic_flow.hpp"
 #include "fracture/bonds.hpp"
 #include "fracture/conform.hpp"
 #include "fracture/fracture.hpp"
@@ -31,6 +29,8 @@
 #include "step/overlap_check.hpp"
 #include "step/search_schedule.hpp"
 #include "surface/contact_surface.hpp"
+#include "time/energy_ledger.hpp"
+#include "time/explicit_dynamics.hpp"
 
 namespace yadefrag {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/tolerances/step.hpp"
-#include "dynamics/critical_time_step.hpp"
 #include "step/overlap_check.hpp"
 #include "step/world.hpp"
+#include "time/critical_time_step.hpp"
 
 namespace yadefrag {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "collider/search_collider.hpp"
+#include "materials/surface_segment.hpp"
 #include "search/contact_search.hpp"
-#include "segments/surface_segment.hpp"
 
 namespace yadefrag {
 

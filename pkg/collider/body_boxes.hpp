@@ -13,12 +13,12 @@
 #include <typeinfo>
 #include <vector>
 
-#include "abi/yade.hpp"
 #include "collider/sweep_rule.hpp"
 #include "core/box.hpp"
 #include "core/ids.hpp"
 #include "core/parallel.hpp"
-#include "segments/surface_segment.hpp"
+#include "materials/surface_segment.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 

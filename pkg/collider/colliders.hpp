@@ -2,7 +2,7 @@
 // The three colliders, one for each search.
 
 #include "collider/search_collider.hpp"
-#include "publish/published.hpp"
+#include "yade/published.hpp"
 
 namespace yadefrag {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "abi/helpers.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 #include "core/tolerances/collider.hpp"
 #include "search/curve_key.hpp"
+#include "yade/helpers.hpp"
 
 namespace yadefrag {
 

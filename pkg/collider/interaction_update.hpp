@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "abi/yade.hpp"
 #include "collider/sphere_reach.hpp"
 #include "core/csr.hpp"
 #include "core/tolerances/threads.hpp"
 #include "search/partner_table.hpp"
 #include "search/sorted_list.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 

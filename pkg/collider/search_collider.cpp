@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "abi/helpers.hpp"
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
-#include "publish/running.hpp"
+#include "materials/surface_segment.hpp"
 #include "search/periodic.hpp"
-#include "segments/surface_segment.hpp"
+#include "yade/helpers.hpp"
+#include "yade/running.hpp"
 
 namespace yadefrag {
 

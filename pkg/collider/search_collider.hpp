@@ -9,16 +9,16 @@
 #include <optional>
 #include <vector>
 
-#include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
 #include "collider/interaction_update.hpp"
 #include "collider/sphere_reach.hpp"
 #include "collider/sweep_rule.hpp"
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
-#include "publish/attribute.hpp"
 #include "search/incremental_search.hpp"
 #include "search/periodic.hpp"
+#include "yade/attribute.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 

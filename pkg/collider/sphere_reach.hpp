@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
 #include "core/ids.hpp"
 #include "core/request.hpp"
 #include "core/tolerances/collider.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 

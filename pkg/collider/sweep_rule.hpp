@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "abi/yade.hpp"
 #include "core/tolerances/collider.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 

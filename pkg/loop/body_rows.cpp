@@ -4,8 +4,8 @@
 #include <cmath>
 #include <typeinfo>
 
-#include "abi/helpers.hpp"
 #include "core/request.hpp"
+#include "yade/helpers.hpp"
 
 namespace yadefrag {
 

@@ -2,12 +2,12 @@
 
 #include <cstddef>
 
-#include "abi/helpers.hpp"
 #include "core/lanes.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
 #include "loop/known_laws.hpp"
-#include "publish/running.hpp"
+#include "yade/helpers.hpp"
+#include "yade/running.hpp"
 
 namespace yadefrag {
 

@@ -1,11 +1,11 @@
 #pragma once
 // A drop-in for YADE's InteractionLoop.
 
+#include "loop/block_memory.hpp"
 #include "loop/body_rows.hpp"
 #include "loop/pair_step.hpp"
-#include "memory/block_memory.hpp"
-#include "publish/attribute.hpp"
-#include "publish/published.hpp"
+#include "yade/attribute.hpp"
+#include "yade/published.hpp"
 
 namespace yadefrag {
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "abi/helpers.hpp"
 #include "loop/known_laws.hpp"
+#include "yade/helpers.hpp"
 
 namespace yadefrag {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <typeinfo>
 
-#include "abi/helpers.hpp"
 #include "loop/curve_loop.hpp"
 #include "loop/known_laws.hpp"
+#include "yade/helpers.hpp"
 
 namespace yadefrag {
 

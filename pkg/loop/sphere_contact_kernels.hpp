@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "abi/exposed.hpp"
 #include "core/four_lanes.hpp"
+#include "yade/exposed.hpp"
 
 namespace yadefrag {
 

@@ -5,10 +5,10 @@
 #include <new>
 #include <type_traits>
 
-#include "abi/yade.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/contact.hpp"
-#include "publish/value_kind.hpp"
+#include "yade/value_kind.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 namespace {

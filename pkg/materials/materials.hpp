@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "abi/yade.hpp"
 #include "materials/choices.hpp"
 #include "mesh/body_material.hpp"
-#include "publish/published.hpp"
+#include "yade/published.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 

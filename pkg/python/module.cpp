@@ -4,22 +4,22 @@
 
 #include "collider/colliders.hpp"
 #include "core/lanes.hpp"
-#include "fe/fe_solver.hpp"
-#include "integrator/curve_integrator.hpp"
+#include "loop/curve_integrator.hpp"
 #include "loop/curve_loop.hpp"
 #include "materials/materials.hpp"
-#include "publish/publish.hpp"
-#include "publish/running.hpp"
-#include "segments/surface_segment.hpp"
+#include "materials/surface_segment.hpp"
+#include "solver/fe_solver.hpp"
+#include "yade/publish.hpp"
+#include "yade/running.hpp"
 #ifdef YADE_OPENGL
-#include "view/body_picture.hpp"
+#include "bindings/body_picture.hpp"
 #endif
 
 #include <boost/python.hpp>
 #include <unordered_map>
 #include <vector>
 
-#include "abi/yade.hpp"
+#include "yade/yade.hpp"
 
 namespace yadefrag {
 namespace {

@@ -11,11 +11,11 @@
 #include <functional>
 
 #include "benchmark/fe_scenes.hpp"
-#include "dynamics/critical_time_step.hpp"
-#include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
+#include "time/critical_time_step.hpp"
+#include "time/explicit_dynamics.hpp"
 
 namespace yadefrag {
 namespace {

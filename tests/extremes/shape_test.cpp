@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "extremes/block_collision.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 
 namespace yadefrag::test {
 namespace {

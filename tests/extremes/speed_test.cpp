@@ -14,7 +14,7 @@
 
 #include "extremes/block_collision.hpp"
 #include "extremes/limits.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "core/checks.hpp"
-#include "dynamics/critical_time_step.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"
 #include "fracture/separation.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
 #include "meshing/triangulate.hpp"
+#include "time/critical_time_step.hpp"
 
 namespace yadefrag {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/checks.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "extremes/limits.hpp"
 #include "fracture/laboratory.hpp"
 #include "fracture/random_cracks.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/checks.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "fracture/laboratory.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/two_triangles.hpp"

@@ -8,12 +8,12 @@
 #include <random>
 
 #include "core/errors.hpp"
-#include "curve/position_code.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
 #include "meshing/mesh_stages.hpp"
 #include "meshing/triangulate.hpp"
+#include "search/position_code.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -12,11 +12,11 @@
 
 #include "core/checks.hpp"
 #include "core/random_bits.hpp"
-#include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
 #include "meshing/mesh_stages.hpp"
 #include "meshing/triangulate.hpp"
+#include "time/critical_time_step.hpp"
 
 namespace yadefrag {
 namespace {

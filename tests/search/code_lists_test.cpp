@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/comparisons.hpp"
-#include "curve/numbering.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
 #include "search/filter_box.hpp"
+#include "search/numbering.hpp"
 #include "search/row_begins.hpp"
 #include "search/sorted_list.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "core/checks.hpp"
 #include "core/tolerances/contact.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

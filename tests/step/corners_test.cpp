@@ -7,7 +7,7 @@
 
 #include "benchmark/fe_scenes.hpp"
 #include "core/checks.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

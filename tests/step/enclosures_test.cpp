@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/checks.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
+#include "meshing/polygon.hpp"
 #include "meshing/triangulate.hpp"
-#include "outline/polygon.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "fe/column_archive.hpp"
-#include "publish/any_archive.hpp"
+#include "solver/column_archive.hpp"
 #include "step/bodies.hpp"
+#include "yade/any_archive.hpp"
 
 namespace yadefrag::test {
 namespace {

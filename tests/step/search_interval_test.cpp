@@ -10,7 +10,7 @@
 #include "contact/contact_scenes.hpp"
 #include "core/checks.hpp"
 #include "core/tolerances/step.hpp"
-#include "outline/polygon.hpp"
+#include "meshing/polygon.hpp"
 #include "step/bodies.hpp"
 #include "step/search_schedule.hpp"
 

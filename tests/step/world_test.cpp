@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/checks.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "step/bodies.hpp"
 #include "surface/surface_checks.hpp"
 

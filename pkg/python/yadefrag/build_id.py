@@ -1,4 +1,4 @@
-"""The build id of YADE's library: the linker's checksum of one build. Also for pkg/abi/tools/make_table.py, without YADE."""
+"""The build id of YADE's library: the linker's checksum of one build. Also for pkg/yade/tools/make_table.py, without YADE."""
 
 import pathlib
 

@@ -22,7 +22,7 @@ _OWN = pathlib.Path(__file__).resolve().parent
 _PLACES = tuple((_OWN / place).resolve() for place in
                 ('../../..', '../../../../share/doc/yadefrag', '../../../../../share/doc/yadefrag'))
 PRECISION = 'PrecisionDouble'
-# With the declarations of pkg/abi: features that add members of YADE's classes that the extension expects ...
+# With the declarations of pkg/yade: features that add members of YADE's classes that the extension expects ...
 NEEDED = ('OPENMP', 'MPI', 'QT5', 'FEMLIKE')
 # ... and these add, widen or align members that it does not expect.
 REFUSED = ('VECTORIZE', 'MASK_ARBITRARY', 'SPH', 'LIQMIGRATION', 'DEFORM', 'BODY_CALLBACK')
@@ -132,7 +132,7 @@ def _rows():
     yield 'yadefrag', '%s in %s' % (YADEFRAG, _OWN), True
     yield 'YADE', '%s in %s; built for %s as %s' % (config.version, config.libDir, VERSION, BUILD), (
         config.version == VERSION)
-    yield 'built with', ("the declarations of pkg/abi, for a YADE package without headers" if FEATURES is None
+    yield 'built with', ("the declarations of pkg/yade, for a YADE package without headers" if FEATURES is None
                          else "YADE's own headers, for its features " + ', '.join(FEATURES)), True
     yield 'Python', platform.python_version(), True
     problem = describeSurroundings()

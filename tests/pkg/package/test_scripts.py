@@ -126,7 +126,7 @@ def test_allAreCheckedWhereTheHistoryIsUnknown(turn, monkeypatch, tmp_path, caps
     assert turn.history('1') == (None, 0)
 
 
-TOOL = ROOT / 'pkg' / 'abi' / 'tools' / 'yade_build.py'
+TOOL = ROOT / 'pkg' / 'yade' / 'tools' / 'yade_build.py'
 CONFIG = """suffix='-mine'
 highPrecisionBits         =%(bits)d
 highPrecisionDecimalPlaces=15

@@ -1,5 +1,5 @@
 """The check at `import yadefrag`: which YADE is refused, and with what words. What is known of YADE's classes
-(pkg/abi/versions): by the declarations, and by the running yade."""
+(pkg/yade/versions): by the declarations, and by the running yade."""
 import copy
 import ctypes
 import json
@@ -17,7 +17,7 @@ from yade import config, wrapper
 from yadefrag import _yadefrag, support
 from project import ROOT
 
-ABI = ROOT / 'pkg' / 'abi'
+ABI = ROOT / 'pkg' / 'yade'
 sys.path.insert(0, str(ABI / 'tools'))
 
 import check_virtuals  # noqa: E402
@@ -114,7 +114,7 @@ def test_ownCopiesOfEigenCgalAndFmtStayInside():
 
 def compiled(tmp_path, version):
     """The compiler's run on the checks of the layout, for the table of a version; its dump of the classes."""
-    assert make_table.main(version, '0', tmp_path / 'abi', tmp_path / '_built.py') == 0
+    assert make_table.main(version, '0', tmp_path / 'yade', tmp_path / '_built.py') == 0
     dump = tmp_path / 'classes.txt'
     folders = ['/usr/include/eigen3', sysconfig.get_paths()['include']]
     done = subprocess.run(

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "core/checks.hpp"
-#include "dynamics/blocks.hpp"
-#include "dynamics/element_state.hpp"
+#include "elements/blocks.hpp"
+#include "elements/element_state.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/element_state.hpp"
+#include "elements/element_state.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

@@ -1,0 +1,139 @@
+#include "elements/element_state.hpp"
+
+#include <algorithm>
+
+#include "core/arrays.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// (J) Twice the triangle's own energy at the half step.
+double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
+  const Matrix2 f = deformationGradient(model, element);
+  const Matrix2 last = f - deformationStep(model, element, dt);
+  const SplitGradient now = splitGradient(f);
+  const SplitGradient before = splitGradient(last);
+  const ElasticMaterial& material = model.bodyOf(element).material;
+  return (1 - kSmoothedShare) * material.shearModulus() * volumeOf(model, element) *
+             (now.part[2] * before.part[2] + now.part[3] * before.part[3]) +
+         volumeOf(model, element) * twiceBarrierEnergy(f, last, material.waveModulus());
+}
+
+bool isSmoothed(const Component& body) {
+  return body.element == ElementKind::kSmoothed && !body.yields();
+}
+
+/// Calls `use(element)` for all triangles with smoothed strains that have not been removed.
+template <class Use>
+void forEachSmoothed(const Model& model, Use use) {
+  for (const Component& body : model.components)
+    if (isSmoothed(body))
+      for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+        if (!model.triangles.isDropped(e)) use(ElementId(e));
+}
+
+/// Means by node; zero at nodes of other bodies.
+std::vector<SplitGradient> smoothedMeans(const Model& model) {
+  std::vector<SplitGradient> means(model.nodes.size());
+  forEachSmoothed(model, [&](ElementId element) {
+    const SplitGradient mass = model.bodyOf(element).material.density * volumeOf(model, element) /
+                               3 * splitGradient(deformationGradient(model, element));
+    for (const NodeId node : model.triangles.nodes[element.value])
+      means[node.value] += 1 / model.nodes.mass[node.value] * mass;
+  });
+  return means;
+}
+
+bool anySmoothed(const Model& model) {
+  return std::any_of(model.components.begin(), model.components.end(), isSmoothed);
+}
+
+const ElasticMaterial& materialAt(const Model& model, NodeId node) {
+  return model.components[model.nodes.component[node.value].value].material;
+}
+
+}  // namespace
+
+void NodeSum::add(const Model& model, ElementId element, double dt) {
+  const double third = volumeOf(model, element) / 3;
+  const Matrix2 f = deformationGradient(model, element);
+  volume += third;
+  now += third * splitGradient(f);
+  before += third * splitGradient(f - deformationStep(model, element, dt));
+}
+
+NodeSum& NodeSum::operator+=(const NodeSum& other) {
+  volume += other.volume;
+  now += other.now;
+  before += other.before;
+  return *this;
+}
+
+double NodeSum::energy(const ElasticMaterial& material) const {
+  if (volume == 0) return 0;
+  const SplitGradient x = 1 / volume * now;
+  const SplitGradient y = 1 / volume * before;
+  const SplitGradient stress = nodeStress(x, material) - nodeStress(y, material);
+  const SplitGradient step = x - y;
+  double work = 0;
+  for (int j = 0; j < 4; ++j) work += stress.part[j] * step.part[j];
+  return volume * (nodeEnergyDensity(x, material) + nodeEnergyDensity(y, material) - work / 2) / 2;
+}
+
+double smoothedEnergy(const Model& model, double dt) {
+  if (!anySmoothed(model)) return 0;
+  std::vector<NodeSum> sums(model.nodes.size());
+  double sum = 0;
+  forEachSmoothed(model, [&](ElementId element) {
+    NodeSum one;
+    one.add(model, element, dt);
+    for (const NodeId node : model.triangles.nodes[element.value]) sums[node.value] += one;
+    sum += twiceOwnEnergy(model, element, dt) / 2;
+  });
+  for (std::size_t n = 0; n < sums.size(); ++n) sum += sums[n].energy(materialAt(model, NodeId(n)));
+  return sum;
+}
+
+double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt) {
+  std::vector<NodeId> nodes;
+  for (const ElementId e : elements)
+    if (isSmoothed(model.bodyOf(e)))
+      nodes.insert(nodes.end(), model.triangles.nodes[e.value].begin(),
+                   model.triangles.nodes[e.value].end());
+  sortUnique(nodes);
+  std::vector<NodeSum> sums(nodes.size());
+  double sum = 0;
+  for (const ElementId e : elements) {
+    if (!isSmoothed(model.bodyOf(e))) continue;
+    NodeSum one;
+    one.add(model, e, dt);
+    for (const NodeId node : model.triangles.nodes[e.value])
+      sums[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()] += one;
+    sum += twiceOwnEnergy(model, e, dt) / 2;
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) sum += sums[i].energy(materialAt(model, nodes[i]));
+  return sum;
+}
+
+void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>& stresses) {
+  if (!anySmoothed(model)) return;
+  const std::vector<SplitGradient> means = smoothedMeans(model);
+  forEachSmoothed(model, [&](ElementId element) {
+    const ElasticMaterial& material = model.bodyOf(element).material;
+    const Matrix2 f = deformationGradient(model, element);
+    const SplitGradient split = splitGradient(f);
+    const double own = (1 - kSmoothedShare) * material.shearModulus();
+    SplitGradient stress{{0, 0, own * split.part[2], own * split.part[3]}};
+    for (const NodeId node : model.triangles.nodes[element.value])
+      stress += 1. / 3 * nodeStress(means[node.value], material);
+    const Matrix2 p = piolaOf(stress);
+    const double det = determinant(f);
+    // σ = P Fᵀ / det F; its two shear components differ if neighbours rotate differently.
+    const double mean = CollapseBarrier(det, material.waveModulus()).slope;
+    stresses[element.value] = {(p.xx * f.xx + p.xy * f.xy) / det + mean,
+                               (p.yx * f.yx + p.yy * f.yy) / det + mean,
+                               (p.xx * f.yx + p.xy * f.yy + p.yx * f.xx + p.yy * f.xy) / (2 * det)};
+  });
+}
+
+}  // namespace yadefrag

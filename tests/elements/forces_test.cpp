@@ -1,0 +1,228 @@
+// The elastic law: stress of uniform strain, forces as the gradient of the energy, rotation.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "elements/blocks.hpp"
+#include "elements/element_state.hpp"
+#include "meshing/triangulate.hpp"
+
+namespace yadefrag {
+namespace {
+
+double energyOf(const Model& model) { return strainEnergy(model, 0); }
+
+void turn(Model& model, double angle) {
+  for (Vec2& x : model.nodes.position) x = test::turnedBy(x, angle);
+}
+
+/// Cauchy stress of the stretches 1 + a and 1 + b, which the law gives exactly at any size.
+void checkPatch(const ElasticMaterial& material, double cxx, double cxy, ElementKind element) {
+  const double a = .02;
+  const double b = -.007;
+  Model model = square(6, material);
+  model.components[0].element = element;
+  for (Vec2& x : model.nodes.position) x = {(1 + a) * x.x, (1 + b) * x.y};
+  const double sx = (cxx * a + cxy * b) / (1 + b);
+  const double sy = (cxy * a + cxx * b) / (1 + a);
+  // Rounding of F: 1e-16 · E, with room for the division by small edges.
+  const double rounding = 1e-14 * material.young;
+  for (const auto& s : stresses(model)) {
+    EXPECT_NEAR(s[0], sx, rounding);
+    EXPECT_NEAR(s[1], sy, rounding);
+    EXPECT_NEAR(s[2], 0, rounding);
+  }
+  const std::vector<Vec2> force = forcesOf(model);
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    const Vec2 x = model.nodes.position[n];
+    if (std::abs(x.x) < .0099 && std::abs(x.y) < .0099) {
+      EXPECT_LT(norm(force[n]), rounding * .02) << "inner node " << n;
+    }
+  }
+  turn(model, .5);
+  const double mean = (sx + sy) / 2;
+  const double half = (sx - sy) / 2;
+  for (const auto& s : stresses(model)) {
+    EXPECT_NEAR(s[0], mean + half * std::cos(1.), rounding);
+    EXPECT_NEAR(s[1], mean - half * std::cos(1.), rounding);
+    EXPECT_NEAR(s[2], half * std::sin(1.), rounding);
+  }
+}
+
+TEST(Forces, UniformPlaneStrainIsExact) {
+  const double e = kSteel.young / (1.3 * .4);
+  for (const ElementKind kind : {ElementKind::kLinear, ElementKind::kSmoothed})
+    checkPatch(kSteel, e * .7, e * .3, kind);
+}
+
+TEST(Forces, UniformPlaneStressIsExact) {
+  ElasticMaterial material = kSteel;
+  material.planeStress = true;
+  const double e = material.young / (1 - .09);
+  for (const ElementKind kind : {ElementKind::kLinear, ElementKind::kSmoothed})
+    checkPatch(material, e, e * .3, kind);
+}
+
+void checkGradient(Model model) {
+  turn(model, 2);
+  shake(model, 3e-4);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    model.nodes.position[n] += model.nodes.velocity[n];
+  const std::vector<Vec2> force = forcesOf(model);
+  const double h = 1e-8;
+  double largest = 0;
+  for (const Vec2 f : force) largest = std::max(largest, norm(f));
+  for (std::size_t n = 0; n < force.size(); ++n)
+    for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+      Model moved = model;
+      moved.nodes.position[n].*axis += h;
+      const double after = energyOf(moved);
+      moved.nodes.position[n].*axis -= 2 * h;
+      // Rounding of the energies over 2h: some 1e-8 of the largest force.
+      EXPECT_NEAR(force[n].*axis, (energyOf(moved) - after) / (2 * h), 1e-7 * largest);
+    }
+}
+
+TEST(Forces, AreMinusTheGradientOfTheEnergy) {
+  checkGradient(square(3, kSteel, .7));
+  checkGradient(smoothed(square(3, kSteel, .7)));
+  checkGradient(smoothed(square(3, {.young = 2e6, .poisson = .49, .density = 1000})));
+}
+
+void checkRotation(const Model& model) {
+  for (const double angle : {1e-9, .3, 1.6, 3.1415926, 4., 6.2}) {
+    Model turned = model;
+    turn(turned, angle);
+    // Rounding of coordinates over edges, times E.
+    for (const auto& s : stresses(turned))
+      EXPECT_LT(std::abs(s[0]) + std::abs(s[1]) + std::abs(s[2]), 1e-13 * kSteel.young) << angle;
+  }
+}
+
+TEST(Forces, RotationAloneGivesNone) {
+  checkRotation(square());
+  checkRotation(smoothed(square()));
+}
+
+/// Turns the model's nodes around the origin (rad/s) for `stepsOf(Δt)` steps: it
+/// keeps its energy and shows no stress but that of its spin.
+template <class Steps>
+void expectNoFalseStressIn(Model model, double spin, Steps stepsOf) {
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    model.nodes.velocity[n] = -spin * rightOf(model.nodes.position[n]);
+  Stepper run = runOf(std::move(model), .8);
+  const double energy = run.total();
+  const int steps = stepsOf(run.dt);
+  double largest = 0;
+  for (int i = 0; i < steps; i += 100) {
+    run.step(100);
+    // 10⁻⁵: in one step the block turns by ωΔt = 2·10⁻³, whose square is the leapfrog's error.
+    ASSERT_NEAR(run.total(), energy, 1e-5 * energy);
+    for (const auto& s : stresses(run.model))
+      largest = std::max({largest, std::abs(s[0]), std::abs(s[1]), std::abs(s[2])});
+  }
+  // Released without the stress of its spin, ρω²R²/2 at most for a disc around it, a body swings to
+  // twice that; nothing else may add up.
+  EXPECT_LT(largest, 2 * kSteel.density * spin * spin * .0002 / 2);
+  EXPECT_GT(largest, 0);
+}
+
+TEST(Forces, ABlockSpunThroughTenTurnsKeepsItsEnergyAndShowsNoFalseStress) {
+  const double spin = 1e4;  // rad/s: 140 m/s at the corners
+  expectNoFalseStressIn(square(), spin, [&](double dt) {
+    return static_cast<int>(10 * 2 * std::numbers::pi / spin / dt);
+  });
+}
+
+// --- Bodies with smoothed strains: modes without energy, energy and momentum, dropped triangles.
+
+/// (N/m) −∂f/∂x at rest, by central differences.
+Eigen::MatrixXd stiffnessOf(const Model& model, double h) {
+  const auto count = static_cast<Eigen::Index>(2 * model.nodes.size());
+  Eigen::MatrixXd stiffness(count, count);
+  for (Eigen::Index column = 0; column < count; ++column) {
+    Model moved = model;
+    double& x =
+        column % 2 == 0 ? moved.nodes.position[column / 2].x : moved.nodes.position[column / 2].y;
+    x += h;
+    const std::vector<Vec2> after = forcesOf(moved);
+    x -= 2 * h;
+    const std::vector<Vec2> before = forcesOf(moved);
+    for (Eigen::Index row = 0; row < count; ++row) {
+      const Vec2 change = before[row / 2] - after[row / 2];
+      stiffness(row, column) = (row % 2 == 0 ? change.x : change.y) / (2 * h);
+    }
+  }
+  return stiffness;
+}
+
+/// Three modes have no energy, the rigid ones, and all others at least `least` of the stiffest.
+void checkModes(const Model& model, double least) {
+  const Eigen::MatrixXd stiffness = stiffnessOf(model, 1e-8);
+  const Eigen::VectorXd modes =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
+  const double stiffest = modes[modes.size() - 1];
+  for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(modes[i]), 1e-6 * stiffest);
+  EXPECT_GT(modes[3], least * stiffest);
+}
+
+Model bodyOf(const TriangleMesh& mesh, const ElasticMaterial& material) {
+  Model model;
+  Component component;
+  component.material = material;
+  component.element = ElementKind::kSmoothed;
+  appendBody(model, mesh, component);
+  return model;
+}
+
+TEST(Smoothed, NoMotionButTheRigidOnesIsWithoutEnergy) {
+  for (const double poisson : {0., .3, .49}) {
+    const ElasticMaterial material{.young = 1, .poisson = poisson, .density = 1};
+    for (const QuadPattern pattern : {QuadPattern::kUnionJack, QuadPattern::kCrossed})
+      checkModes(bodyOf(structuredRectangle({0, 0}, {1, 1}, 4, 4, pattern), material), 1e-3);
+    checkModes(bodyOf(structuredRectangle({0, 0}, {1, 1}, 1, 1), material), 1e-3);
+    checkModes(bodyOf(triangulate({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}, .2), material), 1e-4);
+  }
+}
+
+TEST(Smoothed, ALoneTriangleIsALinearOne) {
+  TriangleMesh mesh;
+  mesh.nodes = {{0, 0}, {.01, .001}, {.004, .008}};
+  mesh.triangles = {{0, 1, 2}};
+  Model model = bodyOf(mesh, kSteel);
+  model.nodes.position = {{1e-4, 2e-4}, {.0101, .0012}, {.0038, .0083}};
+  Model linear = model;
+  linear.components[0].element = ElementKind::kLinear;
+  const auto a = forcesOf(model);
+  const auto b = forcesOf(linear);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_LT(norm(a[n] - b[n]), 1e-12 * norm(b[n]));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(stresses(model)[0][i], stresses(linear)[0][i], 1e-3);
+  EXPECT_NEAR(strainEnergy(model, 0), strainEnergy(linear, 0), 1e-12 * strainEnergy(linear, 0));
+}
+
+TEST(Smoothed, SpinShowsNoFalseStress) {
+  expectNoFalseStressIn(smoothed(square()), 1e4, [](double /*dt*/) { return 3000; });
+}
+
+TEST(Smoothed, EnergyOfPartsAddsUp) {
+  Model model = smoothed(square(4));
+  appendBlock(model, {.02, -.01}, {.03, .01}, 3, 3);
+  shake(model, 10);
+  const double dt = .5 * criticalTimeStep(model);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    model.nodes.position[n] += 1e-6 * model.nodes.velocity[n];
+  double sum = 0;
+  for (const Component& body : model.components) {
+    std::vector<ElementId> all;
+    for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) all.emplace_back(e);
+    sum += strainEnergy(model, dt, all);
+  }
+  EXPECT_NEAR(sum, strainEnergy(model, dt), 1e-12 * sum);
+}
+
+}  // namespace
+}  // namespace yadefrag

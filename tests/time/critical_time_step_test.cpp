@@ -1,0 +1,263 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "elements/blocks.hpp"
+#include "elements/element_state.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr double kTiny = 1e-9;  // of the nodes' distances: geometry is linear
+
+/// 2/ω of the fastest mode of the assembled mesh, by power iteration on M⁻¹K, around its present
+/// shape.
+double trueCriticalStep(const Model& model) {
+  Model moved = model;
+  shake(moved, 1);
+  std::vector<Vec2> mode = moved.nodes.velocity;
+  ExplicitDynamics dynamics;
+  dynamics.rebuild(model);
+  double omega2 = 1;
+  for (int i = 0; i < 3000; ++i) {
+    double scale = 0;
+    for (const Vec2 u : mode) scale = std::max(scale, norm(u));
+    double energy = 0;
+    double mass = 0;
+    std::vector<Vec2> difference(mode.size());  // of the forces on either side
+    for (const double side : {1., -1.}) {
+      for (std::size_t n = 0; n < mode.size(); ++n)
+        moved.nodes.position[n] = model.nodes.position[n] + side * kTiny / scale * mode[n];
+      dynamics.predict(moved, 0, {}, {}, 1);
+      for (std::size_t n = 0; n < mode.size(); ++n)
+        difference[n] += side * dynamics.internalForces()[n];
+    }
+    for (std::size_t n = 0; n < mode.size(); ++n) {
+      const Vec2 stiff = -scale / (2 * kTiny) * difference[n];
+      energy += dot(mode[n], stiff);
+      mass += model.nodes.mass[n] * dot(mode[n], mode[n]);
+      mode[n] = 1 / (scale * model.nodes.mass[n] * omega2) * stiff;
+    }
+    omega2 = energy / mass;
+  }
+  return 2 / std::sqrt(omega2);
+}
+
+void checkBound(const Model& model, double sharpness) {
+  const double bound = criticalTimeStep(model);
+  const double truth = trueCriticalStep(model);
+  EXPECT_LE(bound, truth * 1.0001);
+  EXPECT_GE(bound, truth / sharpness);
+}
+
+TEST(CriticalTimeStep, IsASafeAndSharpBoundOfTheFastestMode) {
+  for (const double poisson : {0., .3, .49}) {
+    ElasticMaterial material = kSteel;
+    material.poisson = poisson;
+    checkBound(square(5, material), 1.4);
+    material.planeStress = true;
+    checkBound(square(5, material), 1.4);
+  }
+  Model slivers;
+  appendBlock(slivers, {0, 0}, {.1, .01}, 5, 20);
+  checkBound(slivers, 1.4);
+}
+
+TEST(CriticalTimeStep, HoldsWithSmoothedStrains) {
+  for (const double poisson : {0., .3, .49}) {
+    ElasticMaterial material = kSteel;
+    material.poisson = poisson;
+    checkBound(smoothed(square(5, material)), 1.8);
+  }
+  Model slivers;
+  appendBlock(slivers, {0, 0}, {.1, .01}, 5, 20);
+  checkBound(smoothed(slivers), 2.1);
+}
+
+TEST(CriticalTimeStep, OfOneTriangleIsExact) {
+  TriangleMesh mesh;
+  mesh.nodes = {{0, 0}, {.01, .002}, {.003, .008}};
+  mesh.triangles = {{0, 1, 2}};
+  Component component;
+  component.material = kSteel;
+  Model model;
+  appendBody(model, mesh, component);
+  EXPECT_NEAR(criticalTimeStep(model) / trueCriticalStep(model), 1, 1e-4);
+}
+
+TEST(CriticalTimeStep, FollowsTheElementSizeAndTheWaveSpeed) {
+  const double step = criticalTimeStep(square(8));
+  EXPECT_NEAR(criticalTimeStep(square(16)) / step, .5, .05);
+  ElasticMaterial soft = kSteel;
+  soft.young /= 4;
+  EXPECT_NEAR(criticalTimeStep(square(8, soft)) / step, 2, 1e-9);
+  EXPECT_EQ(criticalTimeStep(Model{}), std::numeric_limits<double>::infinity());
+}
+
+/// The products of masses and stiffnesses on the way must not leave the range of numbers.
+TEST(CriticalTimeStep, DoesNotDependOnTheThickness) {
+  const double usual = criticalTimeStep(square(3, kSteel));
+  for (const double thickness : {1e-290, 1e-200, 1e-100, 1e100, 1e200, 1e290}) {
+    EXPECT_NEAR(criticalTimeStep(square(3, kSteel, thickness)), usual, 1e-12 * usual) << thickness;
+  }
+}
+
+TEST(CriticalTimeStep, IsFiniteForAnyViscosity) {
+  const Model model = square(3, kSteel);
+  double before = criticalTimeStep(model);
+  for (const double linear : {1., 1e10, 1e80, 1e160}) {
+    const double step = criticalTimeStep(model, {linear, 0});
+    EXPECT_GT(step, 0) << linear;
+    EXPECT_LT(step, before) << linear;
+    before = step;
+  }
+}
+
+/// Growth of the kinetic energy of a tiny noise.
+double growth(const StepSettings& settings, double factor) {
+  Model model = square(5);
+  shake(model, 1e-4);
+  Stepper run = runOf(std::move(model), factor, settings);
+  const double before = run.kinetic();
+  double after = before;
+  for (int i = 0; i < 3000 && after < 1e6 * before; ++i) {
+    run.step();
+    after = run.kinetic();
+  }
+  return after / before;
+}
+
+TEST(CriticalTimeStep, StableBelowUnstableWellAbove) {
+  EXPECT_LT(growth({}, .99), 10);
+  EXPECT_GT(growth({}, 1.5), 1e6);
+}
+
+TEST(CriticalTimeStep, BulkViscosityLowersIt) {
+  const StepSettings viscous{.viscosity = {.5, 1.2}};
+  const Model model = square(5);
+  EXPECT_LT(criticalTimeStep(model, viscous.viscosity), .8 * criticalTimeStep(model));
+  EXPECT_LT(growth(viscous, .99), 10);
+  EXPECT_GT(growth(viscous, 2), 1e6);
+}
+
+/// Random velocities on a body that is stretched or squeezed: is the bound still safe there?
+double growthWhenStretched(double stretch) {
+  Model model = square(5);
+  for (Vec2& x : model.nodes.position) x *= stretch;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    const Vec2 x = model.nodes.position[n];
+    const double edge = .00999 * stretch;
+    if (std::abs(x.x) > edge || std::abs(x.y) > edge) model.nodes.held[n] = kHeldXY;
+  }
+  shake(model, 1e-4);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes.held[n] != kFree) model.nodes.velocity[n] = {};
+  Stepper run = runOf(std::move(model), .99);
+  const double before = run.kinetic();
+  run.step(2000);
+  return run.kinetic() / before;
+}
+
+TEST(CriticalTimeStep, HoldsInLargeStrain) {
+  EXPECT_LT(growthWhenStretched(1.5), 10);
+  EXPECT_LT(growthWhenStretched(3), 10);
+}
+
+// --- Resistance to collapse: below `kBarrierBegin` of its area an element gets the stiffer the
+// flatter it is.
+
+constexpr ElasticMaterial kSoft{.young = 5e6, .poisson = .4, .density = 1100};
+constexpr ElementKind kKinds[] = {ElementKind::kLinear, ElementKind::kSmoothed};
+
+/// A block pressed to a part of its height, and turned.
+Model pressed(double part, ElementKind kind, int side = 3) {
+  Model model = square(side, kSoft, .01);
+  for (Component& component : model.components) component.element = kind;
+  const double c = std::cos(.4), s = std::sin(.4);
+  for (Vec2& x : model.nodes.position) x = {c * x.x - s * part * x.y, s * x.x + c * part * x.y};
+  return model;
+}
+
+/// (J) Without the barrier. In a uniform strain smoothed bodies have the same.
+double elasticEnergy(const Model& model) {
+  double sum = 0;
+  for (std::size_t e = 0; e < model.triangles.size(); ++e)
+    sum +=
+        .01 * model.triangles.area[e] *
+        energyDensity(deformationGradient(model, ElementId(e)), kSoft.lame(), kSoft.shearModulus());
+  return sum;
+}
+
+TEST(Collapse, NothingChangesAboveAndAnyEnergyIsReachedBelow) {
+  for (const ElementKind kind : kKinds) {
+    for (const double part : {.9, .5, .2001}) {
+      const Model model = pressed(part, kind);
+      EXPECT_NEAR(strainEnergy(model, 0) / elasticEnergy(model), 1, 1e-12) << part;
+    }
+    double last = 1;
+    for (const double part : {.15, .1, .01, 1e-3, 1e-4}) {
+      const Model model = pressed(part, kind);
+      const double ratio = strainEnergy(model, 0) / elasticEnergy(model);
+      EXPECT_GT(ratio, last) << part;
+      last = ratio;
+    }
+    EXPECT_GT(last, 100);
+  }
+}
+
+TEST(Collapse, ForcesAreTheGradientOfTheEnergy) {
+  for (const ElementKind kind : kKinds) {
+    Model model = pressed(.08, kind);
+    shake(model, 2e-5);
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      model.nodes.position[n] += model.nodes.velocity[n];
+    const std::vector<Vec2> forces = forcesOf(model);
+    double most = 0, worst = 0;
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+        const auto at = [&](double way) {
+          Model moved = model;
+          moved.nodes.position[n].*axis += way;
+          return strainEnergy(moved, 0);
+        };
+        const double slope = (at(1e-8) - at(-1e-8)) / 2e-8;
+        most = std::max(most, std::abs(slope));
+        worst = std::max(worst, std::abs(forces[n].*axis + slope));
+      }
+    EXPECT_LT(worst, 1e-5 * most);
+  }
+}
+
+/// σ of a uniform strain times the area of the turned, pressed side is the force on it.
+TEST(Collapse, StressesContainTheBarrier) {
+  for (const ElementKind kind : kKinds) {
+    const Model model = pressed(.05, kind);
+    const std::vector<Vec2> forces = forcesOf(model);
+    const Vec2 normal{-std::sin(.4), std::cos(.4)};
+    double force = 0;  // of the body on what presses its upper side
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      if (dot(model.nodes.position[n], normal) > .05 * .01 - 1e-9) force += dot(forces[n], normal);
+    for (const auto& [xx, yy, xy] : stresses(model)) {
+      const double along =
+          xx * normal.x * normal.x + yy * normal.y * normal.y + 2 * xy * normal.x * normal.y;
+      EXPECT_NEAR(-along * .02 * .01 / force, 1, 1e-9);
+    }
+  }
+}
+
+TEST(Collapse, TheCriticalStepIsABound) {
+  for (const ElementKind kind : kKinds)
+    for (const double part : {.5, .19, .15, .1, .05, .01}) {
+      const Model model = pressed(part, kind, 2);
+      const double bound = criticalTimeStep(model), exact = trueCriticalStep(model);
+      EXPECT_LE(bound, exact * (1 + 1e-4)) << part;
+      EXPECT_GT(bound, (part < .2 ? .25 : .4) * exact) << part;
+    }
+  EXPECT_LT(criticalTimeStep(pressed(.05, kKinds[0])),
+            .2 * criticalTimeStep(pressed(.21, kKinds[0])));
+}
+
+}  // namespace
+}  // namespace yadefrag
