@@ -37,18 +37,44 @@ inline double contract(const Matrix2& a, const Matrix2& b) {
           d1y * i11 + d2y * i21, d1y * i12 + d2y * i22};
 }
 
+/// The rotation R, and tr(RᵀF).
+struct PolarRotation {
+  double trace, cosine, sine;
+
+  [[gnu::always_inline]] explicit PolarRotation(const Matrix2& f) {
+    const double a = f.xx + f.yy;
+    const double b = f.yx - f.xy;
+    trace = std::sqrt(a * a + b * b);
+    const double inverse = 1 / trace;
+    cosine = a * inverse;
+    sine = b * inverse;
+  }
+  /// 2μ(F − R) + sR
+  [[nodiscard, gnu::always_inline]] Matrix2 stress(const Matrix2& f, double s,
+                                                   double shear) const {
+    const double m = 2 * shear;
+    return {m * (f.xx - cosine) + s * cosine, m * (f.xy + sine) - s * sine,
+            m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
+  }
+};
+
 /// (Pa) First Piola–Kirchhoff stress P = ∂W/∂F.
 [[gnu::always_inline]] inline Matrix2 firstPiola(const Matrix2& f, double lame, double shear) {
-  const double a = f.xx + f.yy;
-  const double b = f.yx - f.xy;
-  const double trace = std::sqrt(a * a + b * b);
-  const double inverse = 1 / trace;
-  const double cosine = a * inverse;
-  const double sine = b * inverse;
-  const double s = lame * (trace - 2);
-  const double m = 2 * shear;
-  return {m * (f.xx - cosine) + s * cosine, m * (f.xy + sine) - s * sine,
-          m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
+  const PolarRotation r(f);
+  return r.stress(f, lame * (r.trace - 2), shear);
+}
+
+/// (Pa) ∂W/∂F and ∂W/∂h with a strain h along the circle around an axis: W + μh², where tr(RᵀF − I)
+/// contains h.
+struct HoopStress {
+  Matrix2 plane;
+  double hoop;
+};
+[[gnu::always_inline]] inline HoopStress hoopStress(const Matrix2& f, double h, double lame,
+                                                    double shear) {
+  const PolarRotation r(f);
+  const double mean = lame * (r.trace - 2 + h);
+  return {r.stress(f, mean, shear), mean + 2 * shear * h};
 }
 
 /// (Pa) An upper bound of the effective traction (fracture/separation.hpp) on all planes, from
@@ -81,26 +107,28 @@ struct StressLimit : TractionBound {
       : TractionBound(shearFactor, slope), squared(squaredBound) {}
 };
 
-/// True if the bound of the effective traction reaches the given limit, for the stress RᵀP.
+/// True if the bound of the effective traction reaches the given limit, for the stress RᵀP and a
+/// further mean stress (Pa; −0: none, which costs nothing).
 [[gnu::always_inline]] inline bool isStressed(const Matrix2& f, double lame, double shear,
-                                              const StressLimit& limit) {
+                                              const StressLimit& limit, double further = -0.) {
   const double a = f.xx + f.yy;
   const double b = f.yx - f.xy;
   const double c = f.xx - f.yy;
   const double d = f.yx + f.xy;
   // Sum and difference of the principal stretches are √(a² + b²) and √(c² + d²).
-  const double mean = (lame + shear) * (std::sqrt(a * a + b * b) - 2);
+  const double mean = (lame + shear) * (std::sqrt(a * a + b * b) - 2) + further;
   const double radius = shear * std::sqrt(c * c + d * d);
   return limit.squaredOf(mean, radius) >= limit.squared;
 }
 
-/// (J/m³) W.
-inline double energyDensity(const Matrix2& f, double lame, double shear) {
+/// (J/m³) W, with a strain along the circle around an axis.
+inline double energyDensity(const Matrix2& f, double lame, double shear, double hoop = 0) {
   const double a = f.xx + f.yy;
   const double b = f.yx - f.xy;
   const double trace = std::sqrt(a * a + b * b);
   const Matrix2 strain = f - Matrix2{a / trace, -b / trace, b / trace, a / trace};
-  return shear * contract(strain, strain) + lame / 2 * (trace - 2) * (trace - 2);
+  const double dilatation = trace - 2 + hoop;
+  return shear * (contract(strain, strain) + hoop * hoop) + lame / 2 * dilatation * dilatation;
 }
 
 }  // namespace yadefrag

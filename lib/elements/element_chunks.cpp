@@ -110,10 +110,26 @@ void appendLanes(const Model& model, Chunk& chunk, std::vector<ElementLanes>& la
     for (std::uint32_t k = 0; k < kLanes; ++k) {
       const std::uint32_t e = std::min(first + k, chunk.lastElement - 1);
       for (int i = 0; i < 4; ++i) l.inverseEdges[i][k] = triangles.inverseEdges[e][i];
-      l.volume[k] = first + k < chunk.lastElement ? triangles.area[e] * chunk.thickness : 0;
+      l.volume[k] =
+          first + k < chunk.lastElement ? triangles.area[e] * model.depthOf(ElementId(e)) : 0;
     }
   }
   chunk.lastLanes = static_cast<std::uint32_t>(lanes.size());
+}
+
+std::vector<ElementHoops> hoopsOf(const Model& model, const std::vector<Chunk>& chunks) {
+  std::vector<ElementHoops> hoops;
+  if (!model.axisymmetric) return hoops;
+  for (const Chunk& chunk : chunks)
+    for (std::uint32_t first = chunk.firstElement; first < chunk.lastElement; first += kLanes) {
+      ElementHoops& h = hoops.emplace_back();
+      for (std::uint32_t k = 0; k < kLanes; ++k) {
+        const ElementId e(std::min(first + k, chunk.lastElement - 1));
+        h.inverse[k] = 1 / (3 * model.triangles.radius[e.value]);
+        for (std::size_t i = 0; i < 3; ++i) h.share[i][k] = model.massShare(e, i) / 3;
+      }
+    }
+  return hoops;
 }
 
 void appendLaws(const Model& model, Chunk& chunk, std::vector<ElementLaws>& laws) {
@@ -153,6 +169,7 @@ void ElementChunks::build(const Model& model) {
     numberCorners(model, chunk);
     mostNodes = std::max<std::size_t>(mostNodes, chunk.lastNode - chunk.firstNode);
   }
+  hoops = hoopsOf(model, chunks);
   placePartials(shared);
 }
 

@@ -29,6 +29,12 @@ struct alignas(64) ElementLaws {
   double density[kLanes];              ///< kg/m³
 };
 
+/// Of kLanes elements of an axisymmetric scene.
+struct alignas(64) ElementHoops {
+  double inverse[kLanes];   ///< 1/(3R) (1/m); times the sum of the corners' x the hoop stretch
+  double share[3][kLanes];  ///< corners' parts of the mass, their sum is 1
+};
+
 /// Successive elements; `lastElement` is one past the last.
 struct ElementRange {
   std::uint32_t firstElement, lastElement;
@@ -59,8 +65,9 @@ struct Chunk {
 struct ElementChunks {
   std::vector<Chunk> chunks;  ///< in the order of their elements
   std::vector<ElementLanes> lanes;
-  std::vector<ElementLaws> laws;  ///< laws of mixed chunks
-  std::vector<NodeId> nodes;      ///< by chunk and local number
+  std::vector<ElementLaws> laws;    ///< laws of mixed chunks
+  std::vector<ElementHoops> hoops;  ///< parallel to `lanes`; empty in a plane scene
+  std::vector<NodeId> nodes;        ///< by chunk and local number
   /// Parallel to `nodes`: index of the partial sum of a shared node.
   std::vector<std::uint32_t> partialOf;
   std::vector<NodeId> sharedNodes;  ///< ascending
@@ -90,6 +97,11 @@ struct ElementChunks {
   /// Laws of the chunk's lanes; null if the chunk has one law.
   [[nodiscard]] const ElementLaws* lawsOf(const Chunk& chunk) const {
     return chunk.isMixed ? laws.data() + chunk.firstLaws : nullptr;
+  }
+
+  /// By index of the lanes; null in a plane scene.
+  [[nodiscard]] const ElementHoops* hoopsIfAny() const {
+    return hoops.empty() ? nullptr : hoops.data();
   }
 
   [[nodiscard]] std::size_t partials() const {

@@ -12,12 +12,13 @@
 namespace yadefrag {
 
 /// Adds the elastic forces (N) of a chunk to `force`; positions and forces by local node number.
-/// `laws`: laws of the chunk, if it is mixed. Appends to `stressed`, in ascending order, the ranges
-/// of up to kLanes elements of which at least one is stressed (`Chunk::squaredStressLimit`).
-/// Returns false if an element is flat (`kFlat`), inverted or not finite.
+/// `laws`: laws of the chunk, if it is mixed; `hoops`: null in a plane scene. Appends to
+/// `stressed`, in ascending order, the ranges of up to kLanes elements of which at least one is
+/// stressed (`Chunk::squaredStressLimit`). Returns false if an element is flat (`kFlat`), inverted
+/// or not finite.
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const ElementLaws* laws, const Vec2* position, Vec2* force,
-                      std::vector<ElementRange>& stressed);
+                      const ElementLaws* laws, const ElementHoops* hoops, const Vec2* position,
+                      Vec2* force, std::vector<ElementRange>& stressed);
 
 /// Coefficients of the bulk viscosity, a pressure −ρL(b₁cε̇) + ρ(b₂Lε̇)², where ε̇ is the rate of
 /// the volume strain and L the smallest altitude of the present triangle. The linear part acts in
@@ -33,7 +34,7 @@ struct BulkViscosity {
 
 /// Adds the forces (N) of the bulk viscosity of a chunk.
 void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const ElementLanes* lanes,
-                      const ElementLaws* laws, const Vec2* position, const Vec2* velocity,
-                      Vec2* force);
+                      const ElementLaws* laws, bool axisymmetric, const Vec2* position,
+                      const Vec2* velocity, Vec2* force);
 
 }  // namespace yadefrag

@@ -17,13 +17,23 @@ Matrix2 gradient(const Model& model, ElementId element, const std::vector<Vec2>&
   return gradient(model, element, field, model.triangles.inverseEdges[element.value]);
 }
 
-/// σ = P Fᵀ / det F. The barrier adds ∂B/∂J to its mean.
-std::array<double, 3> cauchy(const Matrix2& f, const Moduli& m) {
-  const Matrix2 p = firstPiola(f, m.lame, m.shear);
-  const double det = determinant(f);
+/// σ = P Fᵀ / det F, with the stretch along the circle in det F. The barrier adds ∂B/∂J to its
+/// mean.
+std::array<double, 3> cauchy(const Deformation& now, const Moduli& m) {
+  const Matrix2& f = now.plane;
+  const Matrix2 p = hoopStress(f, now.hoop - 1, m.lame, m.shear).plane;
+  const double det = now.volume();
   const double mean = CollapseBarrier(det, m.lame + 2 * m.shear).slope;
   return {(p.xx * f.xx + p.xy * f.xy) / det + mean, (p.yx * f.yx + p.yy * f.yy) / det + mean,
           (p.xx * f.yx + p.xy * f.yy) / det};
+}
+
+/// (Pa) σθθ = Pθ λθ / (det F λθ)
+double cauchyAround(const Model& model, ElementId element) {
+  const Moduli m(model.materialOf(element).material);
+  const Deformation now = deformation(model, element);
+  return hoopStress(now.plane, now.hoop - 1, m.lame, m.shear).hoop / determinant(now.plane) +
+         CollapseBarrier(now.volume(), m.lame + 2 * m.shear).slope;
 }
 
 }  // namespace
@@ -46,13 +56,22 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt) {
   return {dt * rate.xx, dt * rate.xy, dt * rate.yx, dt * rate.yy};
 }
 
+Deformation deformation(const Model& model, ElementId element) {
+  return {deformationGradient(model, element), hoopStretch(model, element)};
+}
+
+Deformation deformationBefore(const Model& model, ElementId element, double dt) {
+  const Deformation now = deformation(model, element);
+  return {now.plane - deformationStep(model, element, dt),
+          now.hoop - dt * overRadius(model, element, model.nodes.velocity, 0)};
+}
+
 std::array<double, 3> stressOf(const Model& model, ElementId element, double dt) {
   const Component& body = model.bodyOf(element);
   if (body.yields()) {
     const Returned state = presentState(model, element, dt);
-    const double volume = body.material.planeStress
-                              ? state.trial.volume
-                              : determinant(deformationGradient(model, element));
+    const double volume =
+        body.material.planeStress ? state.trial.volume : deformation(model, element).volume();
     const PlaneStress t(state.trial, state.mean, state.kept, SolidModuli(body.material).shear);
     return {t.xx / volume, t.yy / volume, t.xy / volume};
   }
@@ -60,7 +79,7 @@ std::array<double, 3> stressOf(const Model& model, ElementId element, double dt)
 }
 
 std::array<double, 3> elasticStressOf(const Model& model, ElementId element, const Moduli& moduli) {
-  return cauchy(deformationGradient(model, element), moduli);
+  return cauchy(deformation(model, element), moduli);
 }
 
 std::array<double, 3> strainRateOf(const Model& model, ElementId element) {
@@ -78,7 +97,7 @@ std::vector<std::array<double, 3>> stresses(const Model& model, double dt) {
     Moduli m(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
       m.take(model, c, ElementId(e));
-      result[e] = cauchy(deformationGradient(model, ElementId(e)), m);
+      result[e] = elasticStressOf(model, ElementId(e), m);
     }
   }
   setSmoothedStresses(model, result);
@@ -93,10 +112,15 @@ std::vector<double> stressesAcross(const Model& model, double dt) {
   for (const Component& c : model.components) {
     if (c.yields() || c.material.planeStress) continue;
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
-      if (!model.triangles.isDropped(e))
+      if (model.triangles.isDropped(e))
+        continue;
+      else if (model.axisymmetric)
+        result[e] = cauchyAround(model, ElementId(e));
+      else
         result[e] = model.materialOf(ElementId(e)).material.poisson * (plane[e][0] + plane[e][1]) +
                     (initial.empty() ? 0 : initial[e]);
   }
+  if (model.axisymmetric) setSmoothedAround(model, result);
   setYieldingAcross(model, dt, result);
   return result;
 }

@@ -44,15 +44,27 @@ struct CollapseBarrier {
 /// ∂J/∂F
 inline Matrix2 cofactor(const Matrix2& f) { return {f.yy, -f.yx, -f.xy, f.xx}; }
 
-/// (J/m³) Twice the barrier's energy density at the half step between two gradients
+/// F, and the stretch along the circle around an axis, which J = det F contains.
+struct Deformation {
+  Matrix2 plane;
+  double hoop = 1;
+
+  [[nodiscard]] double volume() const { return determinant(plane) * hoop; }
+  /// δJ
+  [[nodiscard]] double growth(const Matrix2& step, double hoopStep) const {
+    return hoop * contract(cofactor(plane), step) + determinant(plane) * hoopStep;
+  }
+};
+
+/// (J/m³) Twice the barrier's energy density at the half step between two deformations
 /// (energy_ledger.hpp).
-inline double twiceBarrierEnergy(const Matrix2& now, const Matrix2& before, double modulus) {
-  const CollapseBarrier a(determinant(now), modulus), b(determinant(before), modulus);
-  const Matrix2 change = now - before;
+inline double twiceBarrierEnergy(const Deformation& now, const Deformation& before,
+                                 double modulus) {
+  const CollapseBarrier a(now.volume(), modulus), b(before.volume(), modulus);
+  const Matrix2 step = now.plane - before.plane;
+  const double hoopStep = now.hoop - before.hoop;
   return a.energy + b.energy -
-         (a.slope * contract(cofactor(now), change) -
-          b.slope * contract(cofactor(before), change)) /
-             2;
+         (a.slope * now.growth(step, hoopStep) - b.slope * before.growth(step, hoopStep)) / 2;
 }
 
 // --- Deformation, stress and energy of single elements, for output.
@@ -71,7 +83,18 @@ class Moduli {
 
 /// (m³) Of the stress-free shape.
 inline double volumeOf(const Model& model, ElementId element) {
-  return model.triangles.area[element.value] * model.bodyOf(element).thickness;
+  return model.triangles.area[element.value] * model.depthOf(element);
+}
+
+/// Of a field by node (m; m/s), the mean at the element's corners of its part along x, over the
+/// stress-free radius: of the places the stretch along the circle around the axis, of velocities
+/// its rate. `inPlane`: the value in a plane scene.
+inline double overRadius(const Model& model, ElementId element, const std::vector<Vec2>& places,
+                         double inPlane) {
+  if (!model.axisymmetric) return inPlane;
+  const auto& nodes = model.triangles.nodes[element.value];
+  return (places[nodes[0].value].x + places[nodes[1].value].x + places[nodes[2].value].x) /
+         (3 * model.triangles.radius[element.value]);
 }
 
 /// The deformation gradient F at the present positions.
@@ -84,6 +107,14 @@ Matrix2 elasticGradient(const Model& model, ElementId element);
 
 /// Δt Ḟ: the change of F over a step at the present velocities.
 Matrix2 deformationStep(const Model& model, ElementId element, double dt);
+
+/// The stretch along the circle around the axis; 1 in a plane scene.
+inline double hoopStretch(const Model& model, ElementId element) {
+  return overRadius(model, element, model.nodes.position, 1);
+}
+/// Now, and one step of Δt (s) before.
+Deformation deformation(const Model& model, ElementId element);
+Deformation deformationBefore(const Model& model, ElementId element, double dt);
 
 /// (Pa) Cauchy stress xx, yy, xy of the F of one element, without strain smoothing. Cracks average
 /// it over the elements at a node, which is a smoothing of its own. `dt`: as below.
@@ -104,14 +135,17 @@ std::vector<double> stressesAcross(const Model& model, double dt = 0);
 // --- Energy and stress of bodies with smoothed strains (smoothed_law.hpp), for output and for the
 // energy balance.
 
-/// The gradient F of the triangles at a node, summed with a third of their volumes, now and one
-/// step before.
+/// The gradient F of the triangles at a node, and the strain along the circle around an axis,
+/// summed with a third of their volumes, or the part by mass, now and one step before.
 struct NodeSum {
-  SplitGradient now, before;  ///< m³
-  double volume = 0;          ///< m³
+  SplitGradient now, before;         ///< m³
+  double around = 0, wasAround = 0;  ///< m³
+  double volume = 0;                 ///< m³
 
-  void add(const Model& model, ElementId element, double dt);
+  /// `share`: Model::massShare of the node's corner.
+  void add(const Model& model, ElementId element, double share, double dt);
   NodeSum& operator+=(const NodeSum& other);
+  friend NodeSum operator*(double factor, const NodeSum& sum);
   /// (J) The node's part of the energy at the half step (energy_ledger.hpp).
   [[nodiscard]] double energy(const ElasticMaterial& material) const;
 };
@@ -125,6 +159,8 @@ double smoothedEnergy(const Model& model, std::span<const ElementId> elements, d
 
 /// Sets the Cauchy stresses (Pa: xx, yy, xy), by triangle, from which the forces are computed.
 void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>& stresses);
+/// The same around the axis.
+void setSmoothedAround(const Model& model, std::vector<double>& stresses);
 
 // --- State, stress and energy of bodies that yield, for output and for the energy balance. The
 // stored state is that of the last forces, at xⁿ⁻¹; here it is returned to the yield surface at xⁿ,

@@ -58,13 +58,15 @@ struct LaneGroups {
   }
 };
 
-/// W triangles: their state, which flow replaces, and values of the return.
+/// W triangles: their state, which flow replaces, and values of the return. `thickness` is the
+/// elastic stretch across the plane: the state's, with an axis times the stretch along the circle.
 template <std::size_t W>
 struct alignas(64) FlowLanes {
   LaneGroups<W> groups;
   double edges[4][W], thickness[W], strain[W], temperature[W];
-  double yield[W];    ///< Pa, in slow flow
-  double thermal[W];  ///< part of it that the temperature leaves
+  double yield[W];            ///< Pa, in slow flow
+  double thermal[W];          ///< part of it that the temperature leaves
+  double formerThickness[W];  ///< elastic stretch across the plane at the last step
   TrialLanes<W> trial;
   double stretch[W];                      ///< λ of the trial
   double size[W];                         ///< det F, of a cone

@@ -42,6 +42,12 @@ struct alignas(64) Corners {
     x[2][k] = f2x;
     y[2][k] = f2y;
   }
+  /// A further force towards the axis on each corner, of the stress along the circle.
+  [[gnu::always_inline]] void pullInwards(std::size_t k, double pull) {
+    x[0][k] -= pull;
+    x[1][k] -= pull;
+    x[2][k] -= pull;
+  }
 };
 
 /// To kLanes elements of the corners, from the one `at` on.

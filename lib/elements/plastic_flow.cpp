@@ -155,7 +155,8 @@ PlasticChunk PlasticFlow::inputOf(Model& model, const ElementChunks& elements, c
                   .dt = dt_,
                   .nodes = elements.nodes.data() + chunk.firstNode,
                   .velocity = model.nodes.velocity.data(),
-                  .pressure = isSmoothed(chunk) ? now_.of(chunk) : nullptr};
+                  .pressure = isSmoothed(chunk) ? now_.of(chunk) : nullptr,
+                  .hoops = elements.hoopsIfAny()};
   if (opensVolume(model, chunk))
     in.formerPressure = before_.of(chunk), in.opening = opening_.data();
   return in;
@@ -196,20 +197,22 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint16_t corner = lanes.corner[i][place % kLanes];
       x[i] = position[corner];
-      if (isSmoothed(chunk)) sum += now_.of(chunk)[corner];
+      if (isSmoothed(chunk)) sum += now_.of(chunk)[corner] * model.massShare(ElementId(element), i);
     }
     double thickness = 1;
-    const ElasticTrial now = trialOf(c, point, {x[1] - x[0], x[2] - x[0]}, thickness);
+    TriangleEdges edges{x[1] - x[0], x[2] - x[0]};
+    if (model.axisymmetric)
+      edges.hoop = (x[0].x + x[1].x + x[2].x) / (3 * model.triangles.radius[element]);
+    const ElasticTrial now = trialOf(c, point, edges, thickness);
     const double mean =
         isSmoothed(chunk) ? sum / 3 * now.volume : meanStress(now.volume, c.moduli.bulk);
-    const double twice = TriangleEdges{x[1] - x[0], x[2] - x[0]}.twiceArea();
-    return FlowStep{
-        strain,
-        temperature,
-        mean,
-        c.moduli.shear * std::sqrt(now.squaredMises()),
-        c.plastic.isFrictional() ? twice / (2 * model.triangles.area[element]) : now.volume,
-        state.resistanceOf(element)};
+    const double size = edges.twiceArea() / (2 * model.triangles.area[element]) * edges.hoop;
+    return FlowStep{strain,
+                    temperature,
+                    mean,
+                    c.moduli.shear * std::sqrt(now.squaredMises()),
+                    c.plastic.isFrictional() ? size : now.volume,
+                    state.resistanceOf(element)};
   };
   for (std::size_t i = first; i < threads_[thread].former.size(); ++i) {
     const FormerLanes& former = threads_[thread].former[i];

@@ -18,8 +18,9 @@ using Kind = YieldConstants::Kind;
 /// Copies values of elements to lanes and back; lanes after the last element repeat its value.
 class Group {
  public:
-  [[gnu::always_inline]] Group(const Chunk& chunk, std::size_t lane)
-      : first(static_cast<std::uint32_t>(chunk.firstElement + kLanes * (lane - chunk.firstLanes))),
+  [[gnu::always_inline]] Group(const Chunk& chunk, std::size_t index)
+      : lane(index),
+        first(static_cast<std::uint32_t>(chunk.firstElement + kLanes * (lane - chunk.firstLanes))),
         count(std::min<std::uint32_t>(kLanes, chunk.lastElement - first)) {}
 
   [[gnu::always_inline]] void load(const double* values, double* lanes) const {
@@ -35,11 +36,35 @@ class Group {
       std::copy_n(lanes, count, values + first);
   }
 
+  std::size_t lane;
   std::uint32_t first, count;
 };
 
-[[gnu::always_inline]] inline void meansOfNodes(const ElementLanes& e, const double* nodes,
-                                                double* lanes) {
+/// The stretch along the circle around the axis of a group, for corners from `at` on.
+template <std::size_t W>
+struct Hoops {
+  const ElementHoops& hoops;
+  const Corners<W>& c;
+  std::size_t at;
+
+  [[gnu::always_inline]] Hoops(const PlasticChunk& in, const Group& group,
+                               const Corners<W>& corners, std::size_t first)
+      : hoops(in.hoops[group.lane]), c(corners), at(first) {}
+  [[gnu::always_inline]] double operator[](std::size_t k) const {
+    return (c.x[0][at + k] + c.x[1][at + k] + c.x[2][at + k]) * hoops.inverse[k];
+  }
+};
+
+/// Means by the corners' parts of the mass.
+[[gnu::always_inline]] inline void meansOfNodes(const ElementLanes& e, const ElementHoops* hoops,
+                                                const double* nodes, double* lanes) {
+  if (hoops != nullptr) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      lanes[k] = 0;
+      for (int i = 0; i < 3; ++i) lanes[k] += hoops->share[i][k] * nodes[e.corner[i][k]];
+    }
+    return;
+  }
   for (std::size_t k = 0; k < kLanes; ++k)
     lanes[k] = (nodes[e.corner[0][k]] + nodes[e.corner[1][k]] + nodes[e.corner[2][k]]) * (1. / 3);
 }
@@ -52,14 +77,21 @@ template <bool kNodal, bool kCone, std::size_t W>
   for (std::size_t i = 0; i < 4; ++i) group.load(in.edges[i], w.edges[i] + at);
   group.load(in.thickness, w.thickness + at);
   group.load(in.yield, w.yield + at);
-  if constexpr (kNodal) meansOfNodes(e, in.pressure, w.pressure + at);
-  if constexpr (!kCone) return;
+  if constexpr (kNodal) meansOfNodes(e, in.hoopsOf(group.lane), in.pressure, w.pressure + at);
+  if constexpr (kCone) {
 #pragma omp simd
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double inverse =
+          e.inverseEdges[0][k] * e.inverseEdges[3][k] - e.inverseEdges[1][k] * e.inverseEdges[2][k];
+      w.size[at + k] = c.twiceArea(at + k) * inverse;
+      w.opening[at + k] = 0;
+    }
+  }
+  if (in.hoops == nullptr) return;
+  const Hoops<W> hoop(in, group, c, at);
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const double inverse =
-        e.inverseEdges[0][k] * e.inverseEdges[3][k] - e.inverseEdges[1][k] * e.inverseEdges[2][k];
-    w.size[at + k] = c.twiceArea(at + k) * inverse;
-    w.opening[at + k] = 0;
+    w.thickness[at + k] *= hoop[k];
+    if constexpr (kCone) w.size[at + k] *= hoop[k];
   }
 }
 
@@ -71,11 +103,17 @@ template <std::size_t W>
   return flat;
 }
 
-/// Replaces the corners' coordinates by their forces −V τ ∇N, with the present gradients ∇N.
+/// Replaces the corners' coordinates by their forces −V τ ∇N, with the present gradients ∇N, and
+/// `hasAxis` towards the axis −V τθθ/(3r).
 template <std::size_t W>
-[[gnu::always_inline]] inline void forcesOfLanes(const ElementLanes& e, double shear,
+[[gnu::always_inline]] inline void forcesOfLanes(const ElementLanes& e, double shear, bool hasAxis,
                                                  const FlowLanes<W>& w, std::size_t at,
                                                  Corners<W>& c) {
+  alignas(64) double pull[kLanes];
+  if (hasAxis)
+    for (std::size_t k = at; k < at + kLanes; ++k)
+      pull[k - at] = e.volume[k - at] * stressAcross(w.trial[k], w.mean[k], w.kept[k], shear) /
+                     (c.x[0][k] + c.x[1][k] + c.x[2][k]);
 #pragma omp simd
   for (std::size_t i = 0; i < kLanes; ++i) {
     const std::size_t k = at + i;
@@ -87,6 +125,8 @@ template <std::size_t W>
     c.setForces(k, -(xx * d2y - xy * d2x), -(xy * d2y - yy * d2x), xx * d1y - xy * d1x,
                 xy * d1y - yy * d1x);
   }
+  if (hasAxis)
+    for (std::size_t k = 0; k < kLanes; ++k) c.pullInwards(at + k, pull[k]);
 }
 
 template <bool kPlane, bool kNodal, Kind kKind>
@@ -126,7 +166,8 @@ struct AddForces {
                                    __attribute__((always_inline)) { return w.over[k] > 0; });
       if (w.groups.count > 0) flowBlock(l, input, before, w, sums);
       for (std::uint32_t i = 0; i < count; ++i) {
-        forcesOfLanes(lanes[l + i], in.constants.moduli.shear, w, i * kLanes, now);
+        forcesOfLanes(lanes[l + i], in.constants.moduli.shear, in.hoops != nullptr, w, i * kLanes,
+                      now);
         scatter(lanes[l + i], now, force, i * kLanes);
       }
     }
@@ -149,15 +190,23 @@ struct AddForces {
     for (std::uint32_t i = 0; i < w.groups.count; ++i) {
       const std::size_t at = w.groups.first[i];
       const ElementLanes& e = lanes[l + at / kLanes];
-      prepare(Group(chunk, l + at / kLanes), at, w);
-      if constexpr (kCone && kNodal) meansOfNodes(e, in.formerPressure, w.formerPressure + at);
+      const Group group(chunk, l + at / kLanes);
+      prepare(group, at, w);
+      if constexpr (kCone && kNodal)
+        meansOfNodes(e, in.hoopsOf(group.lane), in.formerPressure, w.formerPressure + at);
       gather(e, former, before, at);
+      copyLanes(room.former.back().thickness, w.formerThickness + at);
+      if (in.hoops == nullptr) continue;
+      const Hoops<kBlock> hoop(in, group, before, at);
+      for (std::size_t k = 0; k < kLanes; ++k) w.formerThickness[at + k] *= hoop[k];
     }
     returnLanes<kKind, kPlane, kNodal>(input, w);
     yieldAfter<kKind>(in.constants, w);
     for (std::uint32_t i = 0; i < w.groups.count; ++i) {
       const std::size_t at = w.groups.first[i];
-      put(Group(chunk, l + at / kLanes), at, w);
+      const Group group(chunk, l + at / kLanes);
+      if (in.hoops != nullptr) withoutHoops(group, input.now, at, w);
+      put(group, at, w);
       const double* volume = lanes[l + at / kLanes].volume;
 #pragma omp simd
       for (std::size_t k = 0; k < kLanes; ++k) {
@@ -176,10 +225,20 @@ struct AddForces {
     FormerLanes& former = room.former.emplace_back();
     former.first = group.first, former.count = group.count;
     for (std::size_t i = 0; i < 4; ++i) copyLanes(w.edges[i] + at, former.edges[i]);
-    copyLanes(w.thickness + at, former.thickness);
+    group.load(in.thickness, former.thickness);
     copyLanes(w.strain + at, former.strain);
     copyLanes(w.temperature + at, former.temperature);
     for (std::uint32_t k = group.count; k < kLanes; ++k) w.over[at + k] = 0;
+  }
+
+  /// The state's thickness after the flow: where there is none, the former one to the last bit.
+  [[gnu::always_inline]] void withoutHoops(const Group& group, const Corners<kBlock>& now,
+                                           std::size_t at, FlowLanes<kBlock>& w) const {
+    alignas(64) double former[kLanes];
+    group.load(in.thickness, former);
+    const Hoops<kBlock> hoop(in, group, now, at);
+    for (std::size_t k = 0; k < kLanes; ++k)
+      w.thickness[at + k] = w.over[at + k] > 0 ? w.thickness[at + k] / hoop[k] : former[k];
   }
 
   [[gnu::always_inline]] void put(const Group& group, std::size_t at,
@@ -218,9 +277,15 @@ struct Forces {
   }
 };
 
-/// Adds a third of each lane's volume to its nodes.
-[[gnu::always_inline]] inline void addThirds(const ElementLanes& e, const double* ratio,
-                                             double* nodes) {
+/// Adds each lane's volume to its nodes, by the corners' parts of the mass.
+[[gnu::always_inline]] inline void addVolumes(const ElementLanes& e, const ElementHoops* hoops,
+                                              const double* ratio, double* nodes) {
+  if (hoops != nullptr) {
+    for (std::size_t k = 0; k < kLanes; ++k)
+      for (int i = 0; i < 3; ++i)
+        nodes[e.corner[i][k]] += e.volume[k] * hoops->share[i][k] * ratio[k];
+    return;
+  }
   alignas(64) double third[kLanes];
 #pragma omp simd
   for (std::size_t k = 0; k < kLanes; ++k) third[k] = e.volume[k] * (1. / 3) * ratio[k];
@@ -247,7 +312,7 @@ struct OpenVolumes {
       tryLanes<false, true, true>(input, w);
       open(w);
       group.store(w.opening, in.opening);
-      addThirds(lanes[l], w.trial.volume, nodes);
+      addVolumes(lanes[l], in.hoopsOf(l), w.trial.volume, nodes);
     }
   }
 
@@ -288,7 +353,11 @@ struct SumVolumes {
         const double inverse = edges[0][k] * edges[3][k] - edges[1][k] * edges[2][k];
         ratio[k] = thickness[k] * inverse * c.twiceArea(k);
       }
-      addThirds(lanes[l], ratio, nodes);
+      if (in.hoops != nullptr) {
+        const Hoops<kLanes> hoop(in, group, c, 0);
+        for (std::size_t k = 0; k < kLanes; ++k) ratio[k] *= hoop[k];
+      }
+      addVolumes(lanes[l], in.hoopsOf(l), ratio, nodes);
     }
   }
 };

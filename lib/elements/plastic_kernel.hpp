@@ -42,7 +42,11 @@ struct PlasticChunk {
   const double* pressure;
   const double* formerPressure = nullptr;  ///< Pa, at the last step, if flow changes the volume
   double* opening = nullptr;  ///< volume strain of the flow, if it changes nodal pressures
+  const ElementHoops* hoops = nullptr;  ///< by index of the lanes, with an axis
 
+  [[nodiscard]] const ElementHoops* hoopsOf(std::size_t lane) const {
+    return hoops == nullptr ? nullptr : hoops + lane;
+  }
   /// (m) Of the nodes of a chunk at the last step, by local number.
   const Vec2* before(const Chunk& chunk, const Vec2* position, std::vector<Vec2>& room) const;
 };
@@ -57,8 +61,8 @@ bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes
 void openVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                  const PlasticChunk& in, const Vec2* position, double* nodes);
 
-/// Adds a third of V·J (m³) of each element to its nodes, by local number; V is the stress-free
-/// volume.
+/// Adds V·J (m³) of each element to its nodes, by local number, a third or by mass; V is the
+/// stress-free volume.
 void sumVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                 const PlasticChunk& in, const Vec2* position, double* nodes);
 

@@ -80,7 +80,7 @@ template <bool kPlane, bool kNodal, bool kCone, std::size_t W>
   const SolidModuli m = in.c.moduli;
   w.forAnySize([&](std::size_t k, auto isAlone) __attribute__((always_inline)) {
     constexpr bool kAnySize = decltype(isAlone)::value, kFree = kPlane && kAnySize;
-    double thickness = w.thickness[k];
+    double thickness = w.formerThickness[k];
     const ElasticTrial former =
         trialAt<kAnySize, kFree>(in.before.gradient(w.edges, k), m, thickness);
     ElasticTrial t = w.trial[k];

@@ -51,7 +51,7 @@ double freeThickness(const Matrix2& f, double guess, double kept, const SolidMod
 
 ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
                      double& thickness) {
-  thickness = point.thickness;
+  thickness = point.thickness * now.hoop;
   const Matrix2 f = now.gradient(point.edges);
   return c.planeStress ? trialAt<true, true>(f, c.moduli, thickness)
                        : trialAt<true, false>(f, c.moduli, thickness);
@@ -71,7 +71,8 @@ Returned returnOne(const YieldConstants& c, const YieldPoint& point, const Trian
   FlowLanes<1> w{};
   w.groups.add(0);
   for (std::size_t i = 0; i < 4; ++i) w.edges[i][0] = point.edges[i];
-  w.thickness[0] = point.thickness;
+  w.thickness[0] = point.thickness * motion.now.hoop;
+  w.formerThickness[0] = point.thickness * motion.before.hoop;
   w.strain[0] = point.strain, w.temperature[0] = point.temperature;
   w.yield[0] = yieldStress(c.plastic, point.strain, point.temperature);
   w.thermal[0] = thermalFactor(c.plastic, point.temperature);
@@ -81,7 +82,9 @@ Returned returnOne(const YieldConstants& c, const YieldPoint& point, const Trian
   tryLanes<kPlane, kNodal, kKind == YieldConstants::Kind::kCone>(in, w);
   const double trialMean = w.mean[0];
   if (w.over[0] > 0) returnLanes<kKind, kPlane, kNodal>(in, w);
-  return {w.point(0), w.trial[0], w.mean[0], trialMean, w.kept[0], w.opening[0], w.work[0]};
+  YieldPoint after = w.point(0);
+  after.thickness = w.over[0] > 0 ? after.thickness / motion.now.hoop : point.thickness;
+  return {after, w.trial[0], w.mean[0], trialMean, w.kept[0], w.opening[0], w.work[0]};
 }
 
 }  // namespace

@@ -54,9 +54,11 @@ struct YieldPoint {
   }
 };
 
-/// The present edges x₁ − x₀, x₂ − x₀ of a triangle (m).
+/// The present edges x₁ − x₀, x₂ − x₀ of a triangle (m), and its stretch along the circle around
+/// the axis.
 struct TriangleEdges {
   Vec2 first, second;
+  double hoop = 1;
 
   [[nodiscard]] double twiceArea() const { return cross(first, second); }
   [[nodiscard]] Matrix2 gradient(const std::array<double, 4>& inverse) const {
@@ -77,7 +79,7 @@ struct TriangleEdges {
 [[nodiscard]] ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point,
                                    const TriangleEdges& now, double& thickness);
 
-/// The edges now and at the last step, and det F now.
+/// The edges now and at the last step, and det F now, in three dimensions.
 struct TriangleMotion {
   TriangleEdges now, before;
   double size;

@@ -7,6 +7,7 @@
 // mean over the triangles at a node, weighted by volume, a body's energy is
 //   Σ_triangles V (1−α)·½μ(c² + d²)
 //     + Σ_nodes V [α·½μ(⟨c⟩² + ⟨d⟩²) + ½(λ+μ)(√(⟨a⟩² + ⟨b⟩²) − 2)²],  V of a node: a third of each.
+// Around an axis the strain along the circle is averaged at the nodes, too, and V is by mass.
 // The dilatation at nodes is that of Dohrmann et al. 2000 (Int. J. Numer. Meth. Eng. 47, 1549) and
 // Bonet et al. 2001 (Commun. Numer. Meth. Eng. 17, 551); the mixture of triangles and nodes is the
 // α-FEM of Liu et al. 2008 (Comput. Methods Appl. Mech. Eng. 197, 3883). Forces are the exact
@@ -55,18 +56,30 @@ inline Matrix2 piolaOf(const SplitGradient& stress) {
   return {a + c, d - b, d + b, a - c};
 }
 
-/// (J/m³) Energy density of a node's mean gradient.
-inline double nodeEnergyDensity(const SplitGradient& mean, const ElasticMaterial& m) {
+/// (J/m³) Energy density of a node's mean gradient and of its mean strain h along the circle around
+/// an axis, by which the dilatation grows: a further λeh + ½(λ+2μ)h², with e = √(a² + b²) − 2.
+inline double nodeEnergyDensity(const SplitGradient& mean, const ElasticMaterial& m,
+                                double around = 0) {
   const auto& [a, b, c, d] = mean.part;
   const double dilatation = std::sqrt(a * a + b * b) - 2;
   return kSmoothedShare * m.shearModulus() / 2 * (c * c + d * d) +
-         (m.lame() + m.shearModulus()) / 2 * dilatation * dilatation;
+         (m.lame() + m.shearModulus()) / 2 * dilatation * dilatation +
+         m.lame() * dilatation * around + m.waveModulus() / 2 * around * around;
+}
+
+/// (Pa) Derivative of that energy density with respect to h.
+inline double stressAround(const SplitGradient& mean, const ElasticMaterial& m, double around) {
+  const auto& [a, b, c, d] = mean.part;
+  return m.lame() * (std::sqrt(a * a + b * b) - 2) + m.waveModulus() * around;
 }
 
 /// (Pa) Gradient of that energy density.
-inline SplitGradient nodeStress(const SplitGradient& mean, const ElasticMaterial& m) {
+inline SplitGradient nodeStress(const SplitGradient& mean, const ElasticMaterial& m,
+                                double around = 0) {
   const auto& [a, b, c, d] = mean.part;
-  const double similar = (m.lame() + m.shearModulus()) * (1 - 2 / std::sqrt(a * a + b * b));
+  const double length = std::sqrt(a * a + b * b);
+  const double similar =
+      (m.lame() + m.shearModulus()) * (1 - 2 / length) + m.lame() * around / length;
   const double distorted = kSmoothedShare * m.shearModulus();
   return {{similar * a, similar * b, distorted * c, distorted * d}};
 }

@@ -9,10 +9,8 @@ namespace {
 
 /// (J) Twice the triangle's own energy at the half step.
 double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
-  const Matrix2 f = deformationGradient(model, element);
-  const Matrix2 last = f - deformationStep(model, element, dt);
-  const SplitGradient now = splitGradient(f);
-  const SplitGradient before = splitGradient(last);
+  const Deformation f = deformation(model, element), last = deformationBefore(model, element, dt);
+  const SplitGradient now = splitGradient(f.plane), before = splitGradient(last.plane);
   const ElasticMaterial& material = model.bodyOf(element).material;
   return (1 - kSmoothedShare) * material.shearModulus() * volumeOf(model, element) *
              (now.part[2] * before.part[2] + now.part[3] * before.part[3]) +
@@ -33,16 +31,23 @@ void forEachSmoothed(const Model& model, Use use) {
 }
 
 /// Means by node; zero at nodes of other bodies.
-std::vector<SplitGradient> smoothedMeans(const Model& model) {
-  std::vector<SplitGradient> means(model.nodes.size());
-  forEachSmoothed(model, [&](ElementId element) {
-    const SplitGradient mass = model.bodyOf(element).material.density * volumeOf(model, element) /
-                               3 * splitGradient(deformationGradient(model, element));
-    for (const NodeId node : model.triangles.nodes[element.value])
-      means[node.value] += 1 / model.nodes.mass[node.value] * mass;
-  });
-  return means;
-}
+struct Means {
+  std::vector<SplitGradient> plane;
+  std::vector<double> around;
+
+  explicit Means(const Model& model) : plane(model.nodes.size()), around(model.nodes.size()) {
+    forEachSmoothed(model, [&](ElementId element) {
+      const double mass = model.bodyOf(element).material.density * volumeOf(model, element) / 3;
+      const SplitGradient weighted = mass * splitGradient(deformationGradient(model, element));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t node = model.triangles.nodes[element.value][i].value;
+        const double part = model.massShare(element, i) / model.nodes.mass[node];
+        plane[node] += part * weighted;
+        around[node] += part * mass * (hoopStretch(model, element) - 1);
+      }
+    });
+  }
+};
 
 bool anySmoothed(const Model& model) {
   return std::any_of(model.components.begin(), model.components.end(), isSmoothed);
@@ -54,30 +59,41 @@ const ElasticMaterial& materialAt(const Model& model, NodeId node) {
 
 }  // namespace
 
-void NodeSum::add(const Model& model, ElementId element, double dt) {
-  const double third = volumeOf(model, element) / 3;
+void NodeSum::add(const Model& model, ElementId element, double share, double dt) {
+  const double third = volumeOf(model, element) / 3 * share;
+  const double strain = hoopStretch(model, element) - 1;
   const Matrix2 f = deformationGradient(model, element);
   volume += third;
   now += third * splitGradient(f);
   before += third * splitGradient(f - deformationStep(model, element, dt));
+  around += third * strain;
+  wasAround += third * (strain - dt * overRadius(model, element, model.nodes.velocity, 0));
 }
 
 NodeSum& NodeSum::operator+=(const NodeSum& other) {
   volume += other.volume;
   now += other.now;
   before += other.before;
+  around += other.around, wasAround += other.wasAround;
   return *this;
+}
+
+NodeSum operator*(double factor, const NodeSum& sum) {
+  return {factor * sum.now, factor * sum.before, factor * sum.around, factor * sum.wasAround,
+          factor * sum.volume};
 }
 
 double NodeSum::energy(const ElasticMaterial& material) const {
   if (volume == 0) return 0;
   const SplitGradient x = 1 / volume * now;
   const SplitGradient y = 1 / volume * before;
-  const SplitGradient stress = nodeStress(x, material) - nodeStress(y, material);
+  const double h = around / volume, g = wasAround / volume;
+  const SplitGradient stress = nodeStress(x, material, h) - nodeStress(y, material, g);
   const SplitGradient step = x - y;
-  double work = 0;
+  double work = (stressAround(x, material, h) - stressAround(y, material, g)) * (h - g);
   for (int j = 0; j < 4; ++j) work += stress.part[j] * step.part[j];
-  return volume * (nodeEnergyDensity(x, material) + nodeEnergyDensity(y, material) - work / 2) / 2;
+  return volume *
+         (nodeEnergyDensity(x, material, h) + nodeEnergyDensity(y, material, g) - work / 2) / 2;
 }
 
 double smoothedEnergy(const Model& model, double dt) {
@@ -86,8 +102,9 @@ double smoothedEnergy(const Model& model, double dt) {
   double sum = 0;
   forEachSmoothed(model, [&](ElementId element) {
     NodeSum one;
-    one.add(model, element, dt);
-    for (const NodeId node : model.triangles.nodes[element.value]) sums[node.value] += one;
+    one.add(model, element, 1, dt);
+    for (std::size_t i = 0; i < 3; ++i)
+      sums[model.triangles.nodes[element.value][i].value] += model.massShare(element, i) * one;
     sum += twiceOwnEnergy(model, element, dt) / 2;
   });
   for (std::size_t n = 0; n < sums.size(); ++n) sum += sums[n].energy(materialAt(model, NodeId(n)));
@@ -106,9 +123,11 @@ double smoothedEnergy(const Model& model, std::span<const ElementId> elements, d
   for (const ElementId e : elements) {
     if (!isSmoothed(model.bodyOf(e))) continue;
     NodeSum one;
-    one.add(model, e, dt);
-    for (const NodeId node : model.triangles.nodes[e.value])
-      sums[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()] += one;
+    one.add(model, e, 1, dt);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = std::ranges::lower_bound(nodes, model.triangles.nodes[e.value][i]);
+      sums[static_cast<std::size_t>(at - nodes.begin())] += model.massShare(e, i) * one;
+    }
     sum += twiceOwnEnergy(model, e, dt) / 2;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) sum += sums[i].energy(materialAt(model, nodes[i]));
@@ -117,22 +136,42 @@ double smoothedEnergy(const Model& model, std::span<const ElementId> elements, d
 
 void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>& stresses) {
   if (!anySmoothed(model)) return;
-  const std::vector<SplitGradient> means = smoothedMeans(model);
+  const Means means(model);
   forEachSmoothed(model, [&](ElementId element) {
     const ElasticMaterial& material = model.bodyOf(element).material;
     const Matrix2 f = deformationGradient(model, element);
     const SplitGradient split = splitGradient(f);
     const double own = (1 - kSmoothedShare) * material.shearModulus();
     SplitGradient stress{{0, 0, own * split.part[2], own * split.part[3]}};
-    for (const NodeId node : model.triangles.nodes[element.value])
-      stress += 1. / 3 * nodeStress(means[node.value], material);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t node = model.triangles.nodes[element.value][i].value;
+      stress += model.massShare(element, i) / 3 *
+                nodeStress(means.plane[node], material, means.around[node]);
+    }
     const Matrix2 p = piolaOf(stress);
-    const double det = determinant(f);
+    const double det = deformation(model, element).volume();
     // σ = P Fᵀ / det F; its two shear components differ if neighbours rotate differently.
     const double mean = CollapseBarrier(det, material.waveModulus()).slope;
     stresses[element.value] = {(p.xx * f.xx + p.xy * f.xy) / det + mean,
                                (p.yx * f.yx + p.yy * f.yy) / det + mean,
                                (p.xx * f.yx + p.xy * f.yy + p.yx * f.xx + p.yy * f.xy) / (2 * det)};
+  });
+}
+
+void setSmoothedAround(const Model& model, std::vector<double>& stresses) {
+  if (!anySmoothed(model)) return;
+  const Means means(model);
+  forEachSmoothed(model, [&](ElementId element) {
+    double stress = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t node = model.triangles.nodes[element.value][i].value;
+      stress += model.massShare(element, i) / 3 *
+                stressAround(means.plane[node], model.bodyOf(element).material, means.around[node]);
+    }
+    const Deformation now = deformation(model, element);
+    stresses[element.value] =
+        stress / determinant(now.plane) +
+        CollapseBarrier(now.volume(), model.bodyOf(element).material.waveModulus()).slope;
   });
 }
 

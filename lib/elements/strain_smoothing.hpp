@@ -19,27 +19,35 @@ struct alignas(64) DistortionLanes {
   double part[2][kLanes];
 };
 
-/// Adds the gradients, multiplied by a third of the volume (m³), to `nodes` (by local number),
-/// stores the distortions, and appends the ranges of stressed elements as `addElasticForces` does.
-/// Returns false if an element is inverted or not finite.
+/// Of a chunk's nodes, by local number: sums of gradients, then stresses; with an axis (null
+/// otherwise) those of the strain along its circle.
+struct SmoothedNodes {
+  SplitGradient* gradient;
+  double* around;
+};
+
+/// Adds the gradients, multiplied by a third of the volume (m³), or by its part by mass, to
+/// `nodes`, stores the distortions, and appends the ranges of stressed elements as
+/// `addElasticForces` does. Returns false if an element is inverted or not finite.
 bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                  const Vec2* position, DistortionLanes* kept, SplitGradient* nodes,
-                  std::vector<ElementRange>& stressed);
+                  const ElementHoops* hoops, const Vec2* position, DistortionLanes* kept,
+                  SmoothedNodes nodes, std::vector<ElementRange>& stressed);
 
 /// (Pa/m³) Factors from a node's summed gradient to a third of its stress, by local number.
 struct NodeFactors {
   double *similar, *distorted;
 };
 
-/// Converts the nodes' summed gradients to a third of the nodes' stresses (Pa); `mass` (kg) and
-/// `nodes` by local number, `factors` is scratch memory of the same length. Nodes of removed
-/// triangles have no mass and no stress.
+/// Converts the nodes' summed gradients to a third of the nodes' stresses (Pa), with an axis to
+/// these; `mass` (kg) by local number, `factors` is scratch memory of the same length. Nodes of
+/// removed triangles have no mass and no stress.
 void stressNodes(InstructionSet set, const Chunk& chunk, const double* mass, NodeFactors factors,
-                 SplitGradient* nodes);
+                 SmoothedNodes nodes);
 
 /// Adds the elastic forces (N) of the nodes' stresses and the elements' distortions.
 void addSmoothedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                       const DistortionLanes* kept, const SplitGradient* nodes, Vec2* force);
+                       const ElementHoops* hoops, const DistortionLanes* kept, SmoothedNodes nodes,
+                       Vec2* force);
 
 // --- Smoothed strains in a step: between the two passes over the chunks the sums of nodes in
 // several chunks are added, in a fixed order. No cost if no body has smoothed strains.
@@ -58,6 +66,7 @@ class StrainSmoothing {
   /// Must be called after a split of nodes.
   void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned) {
     gradient_.follow(elements, abandoned);
+    around_.follow(elements, abandoned);
   }
   [[nodiscard]] bool isOn() const { return !distortion_.empty(); }
 
@@ -68,6 +77,7 @@ class StrainSmoothing {
   /// After the first pass, for each row of `ElementChunks::sharedNodes`: that node's whole sum.
   void sumShared(const ElementChunks& elements, std::size_t row) {
     gradient_.sumShared(elements, row);
+    if (around_.isOn()) around_.sumShared(elements, row);
   }
   /// Second pass, for one chunk; `mass` (kg) by node.
   void addForces(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
@@ -75,6 +85,7 @@ class StrainSmoothing {
 
  private:
   NodeSums<SplitGradient> gradient_;  // with a third of the volumes (m³), then stresses (Pa)
+  NodeSums<double> around_;           // likewise, with an axis, of the strain along its circle
   std::vector<DistortionLanes> distortion_;
 };
 

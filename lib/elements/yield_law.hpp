@@ -99,6 +99,12 @@ struct StressAcross {
         step(stress / (m.bulk * t.volume * t.volume + 4. / 3 * m.shear * kept)) {}
 };
 
+/// (Pa) τ across the plane; arguments as below.
+[[gnu::always_inline]] inline double stressAcross(const ElasticTrial& t, double mean, double kept,
+                                                  double shear) {
+  return mean + 2. / 3 * (shear * kept * t.across);
+}
+
 /// (Pa) τ in the plane.
 struct PlaneStress {
   double xx, yy, xy;

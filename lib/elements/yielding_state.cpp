@@ -27,7 +27,7 @@ Corners cornersOf(const Model& model, ElementId element, const std::vector<Vec2>
   return {field[nodes[0].value], field[nodes[1].value], field[nodes[2].value]};
 }
 
-TriangleEdges edgesOf(const Corners& x) { return {x[1] - x[0], x[2] - x[0]}; }
+TriangleEdges edgesOf(const Corners& x) { return {x[1] - x[0], x[2] - x[0], 1}; }
 
 /// An element at xⁿ and at xⁿ⁻¹.
 struct Pair {
@@ -53,9 +53,12 @@ struct Pair {
         step(cornersOf(model, id, model.nodes.velocity)),
         motion{edgesOf(cornersOf(model, id, model.nodes.position)), {}, 0} {
     for (Vec2& one : step) one *= dt;
-    const TriangleEdges change = edgesOf(step), &now = motion.now;
-    motion.before = {now.first - change.first, now.second - change.second};
-    motion.size = now.twiceArea() / (2 * model.triangles.area[id.value]);
+    const TriangleEdges change = edgesOf(step);
+    TriangleEdges& now = motion.now;
+    now.hoop = hoopStretch(model, id);
+    motion.before = {now.first - change.first, now.second - change.second,
+                     now.hoop - dt * overRadius(model, id, model.nodes.velocity, 0)};
+    motion.size = now.twiceArea() / (2 * model.triangles.area[id.value]) * now.hoop;
     double thickness = 1;
     trial = trialOf(constants, point, now, thickness);
     former = trialOf(constants, point, motion.before, thickness);
@@ -106,8 +109,11 @@ struct Yielding {
   static bool isOpening(const Pair& p) { return p.smoothed && p.constants.plastic.isFrictional(); }
   static double meanPressure(const Model& model, const Pair& p, const std::vector<double>& ratio) {
     double sum = 0;
-    for (const NodeId node : model.triangles.nodes[p.element.value])
-      sum += pressureAt(ratio[node.value], p.constants.moduli.bulk) / 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const NodeId node = model.triangles.nodes[p.element.value][i];
+      sum += pressureAt(ratio[node.value], p.constants.moduli.bulk) / 3 *
+             model.massShare(p.element, i);
+    }
     return sum;
   }
   template <class Read>
@@ -115,9 +121,11 @@ struct Yielding {
     std::vector<double> sum(model.nodes.size()), volume(model.nodes.size());
     for (const Pair& p : pairs)
       if (p.smoothed)
-        for (const NodeId node : model.triangles.nodes[p.element.value]) {
-          volume[node.value] += p.volume;
-          sum[node.value] += p.volume * read(p);
+        for (std::size_t i = 0; i < 3; ++i) {
+          const NodeId node = model.triangles.nodes[p.element.value][i];
+          const double part = p.volume * model.massShare(p.element, i);
+          volume[node.value] += part;
+          sum[node.value] += part * read(p);
         }
     for (std::size_t n = 0; n < sum.size(); ++n)
       if (volume[n] > 0) sum[n] /= volume[n];
@@ -125,18 +133,23 @@ struct Yielding {
   }
 };
 
-/// (N) −V τ ∇N at the corners.
-Corners forcesOf(const Pair& p, const TriangleEdges& x, const PlaneStress& t) {
+/// (N) −V τ ∇N at the corners; with an axis also towards it. `radius` (m): stress-free; 0: none.
+Corners forcesOf(const Pair& p, const TriangleEdges& x, const PlaneStress& t, double across,
+                 double radius) {
   const double scale = p.volume / x.twiceArea();
   const auto force = [&](Vec2 n) {
     return -scale * Vec2{t.xx * n.x + t.xy * n.y, t.xy * n.x + t.yy * n.y};
   };
   const Vec2 first = force({x.second.y, -x.second.x}), second = force({-x.first.y, x.first.x});
-  return {-(first + second), first, second};
+  const Vec2 pull = radius > 0 ? Vec2{p.volume * across / (3 * radius * x.hoop), 0} : Vec2{};
+  return {-(first + second) - pull, first - pull, second - pull};
 }
 
 PlaneStress presentStress(const Pair& p) {
   return {p.present.trial, p.present.mean, p.present.kept, p.constants.moduli.shear};
+}
+double presentAcross(const Pair& p) {
+  return stressAcross(p.present.trial, p.present.mean, p.present.kept, p.constants.moduli.shear);
 }
 
 }  // namespace
@@ -161,21 +174,25 @@ YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> ele
     double twice =
         deviatorEnergy(p.present.trial, p.present.kept, shear) + deviatorEnergy(p.former, 1, shear);
     if (p.smoothed) {
-      for (const NodeId node : model.triangles.nodes[p.element.value])
+      for (std::size_t i = 0; i < 3; ++i) {
+        const NodeId node = model.triangles.nodes[p.element.value][i];
         twice +=
             (volumeEnergy(all.now[node.value], bulk) + volumeEnergy(all.before[node.value], bulk)) /
-            3;
+            3 * model.massShare(p.element, i);
+      }
     } else {
       twice += volumeEnergy(p.present.volume(), bulk) + volumeEnergy(p.former.volume, bulk);
     }
-    const Corners now = forcesOf(p, p.motion.now, presentStress(p));
+    const double radius = model.axisymmetric ? model.triangles.radius[p.element.value] : 0;
+    const Corners now = forcesOf(p, p.motion.now, presentStress(p), presentAcross(p), radius);
     const Corners before =
-        forcesOf(p, p.motion.before, PlaneStress(p.former, p.formerMean, 1, shear));
+        forcesOf(p, p.motion.before, PlaneStress(p.former, p.formerMean, 1, shear),
+                 stressAcross(p.former, p.formerMean, 1, shear), radius);
     double work = 0;
     for (std::size_t i = 0; i < 3; ++i) work += dot(now[i] - before[i], p.step[i]);
     const double modulus = model.bodyOf(p.element).material.waveModulus();
-    const Matrix2 f = deformationGradient(model, p.element);
-    const Matrix2 last = f - deformationStep(model, p.element, dt);
+    const Deformation f = deformation(model, p.element);
+    const Deformation last = deformationBefore(model, p.element, dt);
     sum.strain += p.volume * (twice + twiceBarrierEnergy(f, last, modulus)) / 2 + work / 4;
     sum.dissipated += p.volume * p.present.dissipation / 2;
   }
@@ -235,8 +252,7 @@ void setYieldingStresses(const Model& model, double dt,
 void setYieldingAcross(const Model& model, double dt, std::vector<double>& stresses) {
   forStresses(model, dt, [&](const Pair& p, double volume, double mean) {
     if (p.constants.planeStress) return;
-    const double deviator = p.constants.moduli.shear * p.present.kept * p.present.trial.across;
-    stresses[p.element.value] = (p.present.mean + 2. / 3 * deviator) / volume + mean;
+    stresses[p.element.value] = presentAcross(p) / volume + mean;
   });
 }
 

@@ -32,7 +32,7 @@ EdgeSums sumsOf(const Model& model, const Component& body) {
   const std::vector<KeyedSide> sides = sidesByNodes(model, body);
   EdgeSums sums;
   const auto thirdOf = [&](ElementId e) {  // m³, a third of a triangle's volume
-    return body.thickness * model.triangles.area[e.value] / 3;
+    return model.depthOf(e) * model.triangles.area[e.value] / 3;
   };
   // 1/kg, for the least mass that a node of this triangle may have.
   const auto inverseMass = [&](ElementId e) {

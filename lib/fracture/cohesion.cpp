@@ -50,11 +50,14 @@ void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked) 
   const Vec2 along =
       reference[lastNode(model, side).value] - reference[firstNode(model, side).value];
   const auto [a, b] = edges.element[cracked.value];
-  const double thickness = std::min(model.bodyOf(a).thickness, model.bodyOf(b).thickness);
+  const auto depthOf = [&](ElementId element) {
+    return model.depthOf(model.bodyOf(element), reference[firstNode(model, side).value],
+                         reference[lastNode(model, side).value]);
+  };
   edge.push_back(cracked);
   largest.push_back({0, 0});
   traction.push_back({});
-  area.push_back(norm(along) / 2 * thickness);
+  area.push_back(norm(along) / 2 * std::min(depthOf(a), depthOf(b)));
 }
 
 void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {

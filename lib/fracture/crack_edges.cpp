@@ -101,10 +101,10 @@ std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId componen
     // A third of each triangle belongs to each of its sides.
     const double area =
         model.triangles.area[a.element.value] + model.triangles.area[b.element.value];
+    const double depth = (model.depthOf(a.element) + model.depthOf(b.element)) / 2;
     const BrittleMaterial material = materialAt(model, places, a.element, b.element);
     append(a, b,
-           material.cracks() ? edgeStrength(material, number, body.thickness * area / 3)
-                             : kUnbreakable,
+           material.cracks() ? edgeStrength(material, number, depth * area / 3) : kUnbreakable,
            material.fractureEnergy, false);
     ++number;
     const auto [low, high] = std::minmax({firstNode(model, a), lastNode(model, a)});

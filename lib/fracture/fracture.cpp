@@ -25,7 +25,14 @@ std::vector<ElementId> trianglesAt(const Model& model, const CrackEdges& edges,
 /// J of a triangle by itself.
 double ratioOf(const Model& model, ElementId element) {
   return determinant(elasticGradient(model, element)) *
-         model.triangles.plastic.thickness[element.value];
+         model.triangles.plastic.thickness[element.value] * hoopStretch(model, element);
+}
+
+/// (m²; m³ with an axis) By which ratios are averaged at a node.
+double weightOf(const Model& model, ElementId element, NodeId node) {
+  if (!model.axisymmetric) return model.triangles.area[element.value];
+  const auto corner = static_cast<std::size_t>(cornerOf(model, element, node));
+  return volumeOf(model, element) * model.massShare(element, corner);
 }
 
 /// Changes the stress-free volume; the same factor in all directions keeps the deviator.
@@ -101,8 +108,8 @@ YieldingSplit::YieldingSplit(const Model& model, const CrackEdges& edges,
       const auto at = std::ranges::lower_bound(nodes_, node);
       if (at == nodes_.end() || *at != node) continue;
       const auto i = static_cast<std::size_t>(at - nodes_.begin());
-      area[i] += model.triangles.area[e.value];
-      sum[i] += model.triangles.area[e.value] * ratioOf(model, e);
+      area[i] += weightOf(model, e, node);
+      sum[i] += weightOf(model, e, node) * ratioOf(model, e);
     }
   for (std::size_t i = 0; i < nodes_.size(); ++i) mean_.push_back(sum[i] / area[i]);
 }
@@ -118,7 +125,7 @@ auto YieldingSplit::sumsOf(const Model& model, std::span<const NodeId> originals
   for (std::size_t t = 0; t < around_.size(); ++t)
     for (const NodeId node : model.triangles.nodes[around_[t].value]) {
       const auto at = std::ranges::lower_bound(present, node) - present.begin();
-      const double area = model.triangles.area[around_[t].value];
+      const double area = weightOf(model, around_[t], node);
       Sum& sum = sums[static_cast<std::size_t>(at)];
       sum.triangles.push_back({t, area});
       sum.area += area, sum.squared += area * area, sum.wanted += area * ratio[t];
@@ -236,7 +243,10 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
     NodeSum sum;
     fan.clear();
     edges.appendFan(model, node, fan);
-    for (const ElementId element : fan) sum.add(model, element, dt);
+    for (const ElementId element : fan) {
+      const auto corner = static_cast<std::size_t>(cornerOf(model, element, node));
+      sum.add(model, element, model.massShare(element, corner), dt);
+    }
     return sum;
   };
   double gained = 0;

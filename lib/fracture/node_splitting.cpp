@@ -134,10 +134,10 @@ class Splitting {
     double mass = 0;
     for (const ElementId element : part) {
       const Triangles& triangles = model_.triangles;
-      mass += model_.materialOf(element).material.density * model_.bodyOf(element).thickness *
-              triangles.area[element.value] / 3;
-      if (node == former) continue;
       const auto corner = static_cast<std::size_t>(cornerOf(model_, element, former));
+      mass += model_.materialOf(element).material.density * model_.depthOf(element) *
+              triangles.area[element.value] / 3 * model_.massShare(element, corner);
+      if (node == former) continue;
       model_.triangles.nodes[element.value][corner] = node;
       result_.changed.push_back(element);
     }

@@ -41,13 +41,13 @@ class Conformed {
     std::vector<std::vector<ElementId>> fans(moves.size());
     std::map<NodeId, std::size_t> moveOf;
     for (std::size_t i = 0; i < moves.size(); ++i) moveOf[moves[i].node] = i;
-    std::map<ElementId, Matrix2> changed;
+    std::map<ElementId, Deformation> changed;
     for (std::size_t e = 0; e < t_.size(); ++e)
       for (const NodeId node : t_.nodes[e]) {
         const auto found = moveOf.find(node);
         if (found == moveOf.end() || t_.isDropped(e)) continue;
         fans[found->second].emplace_back(e);
-        changed[ElementId(e)] = deformationGradient(model_, ElementId(e));
+        changed[ElementId(e)] = deformation(model_, ElementId(e));
       }
     std::vector<std::array<Vec2, 2>> carried;  // velocity and reference position
     for (std::size_t i = 0; i < moves.size(); ++i) carried.push_back(valuesAt(fans[i], moves[i]));
@@ -57,7 +57,7 @@ class Conformed {
       if (model_.nodes.held[node] == kFree) model_.nodes.velocity[node] = carried[i][0];
       model_.nodes.reference[node] = carried[i][1];
     }
-    for (const auto& [element, gradient] : changed) setShape(element, gradient);
+    for (const auto& [element, former] : changed) setShape(element, former);
   }
 
   /// Divides the triangle behind a side; the side that begins at the new node remains to be
@@ -67,13 +67,13 @@ class Conformed {
     const std::size_t e = side.element.value, c = side.corner, c1 = afterCorner(side.corner),
                       c2 = beforeCorner(side.corner);
     const std::array<NodeId, 3> corners = t_.nodes[e];
-    const Matrix2 gradient = deformationGradient(model_, side.element);
+    const Deformation former = deformation(model_, side.element);
     const NodeId node = addNode(corners, corners[c], corners[c1], asked);
     const ElementId added(t_.size());
     appendCopy(t_.columns(), e);
     t_.nodes[e][c1] = t_.nodes.back()[c] = node;
-    setShape(side.element, gradient);
-    setShape(added, gradient);
+    setShape(side.element, former);
+    setShape(added, former);
     divideEdges(side.element, added, corners[c1], node, c1, c2);
     moved_[{side.element, static_cast<std::uint8_t>(c1)}] = {added, static_cast<std::uint8_t>(c1)};
     moved_[asked.side] = {added, side.corner};
@@ -110,8 +110,9 @@ class Conformed {
     return {at[nodes[0].value], at[nodes[1].value], at[nodes[2].value]};
   }
 
-  /// The stress-free shape with this gradient at the present places: D⁻¹ = d⁻¹·F.
-  void setShape(ElementId element, const Matrix2& f) {
+  /// The stress-free shape with this deformation at the present places: D⁻¹ = d⁻¹·F.
+  void setShape(ElementId element, const Deformation& former) {
+    const Matrix2& f = former.plane;
     const auto [x0, x1, x2] = placesOf(element);
     const Vec2 a = x1 - x0, b = x2 - x0;
     const double det = cross(a, b);
@@ -120,6 +121,7 @@ class Conformed {
         (b.y * f.xx - b.x * f.yx) / det, (b.y * f.xy - b.x * f.yy) / det,
         (a.x * f.yx - a.y * f.xx) / det, (a.x * f.yy - a.y * f.xy) / det};
     t_.area[element.value] = det / 2 / determinant(f);
+    if (model_.axisymmetric) t_.radius[element.value] = (x0.x + x1.x + x2.x) / (3 * former.hoop);
     flowed.keep(t_, element);
   }
 
@@ -205,7 +207,8 @@ class Conformed {
       const std::uint64_t number =
           std::uint64_t{t_.component[divided.value].value} << 32 | ((edges_.size() + 1) | 1U << 31);
       const double area = t_.area[divided.value] + t_.area[added.value];
-      return {edgeStrength(material, number, body.thickness * area / 3), material.fractureEnergy};
+      return {edgeStrength(material, number, model_.depthOf(divided) * area / 3),
+              material.fractureEnergy};
     }
     double strength = 0, energy = material.fractureEnergy;
     for (const EdgeId edge : former) {

@@ -77,9 +77,10 @@ Traction tipTraction(const Model& model, const CrackEdges& edges, EdgeId edge, N
     const ElementId element = fan[static_cast<std::size_t>(i)];
     const std::size_t part = (i <= std::min(first, second)) == (first < second) ? 0 : 1;
     const auto [after, before] = oppositeEnds(model, element, tip);
-    force[part] += forceOn(stressOf(model, element), after, before);
-    mass[part] +=
-        model.materialOf(element).material.density / density * model.triangles.area[element.value];
+    const double depth = model.depthOf(element) / model.depthOf(fan.front());
+    force[part] += depth * forceOn(stressOf(model, element), after, before);
+    mass[part] += depth * model.materialOf(element).material.density / density *
+                  model.triangles.area[element.value];
   }
   // The force between the two parts when both move with the same acceleration.
   const Vec2 pull = (1 / (mass[0] + mass[1])) * (mass[1] * force[0] - mass[0] * force[1]);

@@ -66,6 +66,28 @@ std::optional<SpatialStretch> stretchOf(const ElasticMaterial& material,
   return SpatialStretch{turned(stress, radius, stretches[0], stretches[1]), stretches[2]};
 }
 
+std::optional<SpatialStretch> stretchAround(const ElasticMaterial& material,
+                                            const std::array<double, 3>& stress, double around) {
+  const double shear = material.shearModulus(), lame = material.lame();
+  const double middle = (stress[0] + stress[1]) / 2;
+  const double radius = std::hypot((stress[0] - stress[1]) / 2, stress[2]);
+  const std::array<double, 3> principal{middle + radius, middle - radius, around};
+  std::array<double, 3> stretches{1, 1, 1}, last{};
+  for (int i = 0; i < tolerance::kStretches && stretches != last; ++i) {
+    last = stretches;
+    std::array<double, 3> piola{};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += piola[k] = principal[k] * last[(k + 1) % 3] * last[(k + 2) % 3];
+    const double mean = lame * sum / (2 * shear + 3 * lame);
+    for (std::size_t k = 0; k < 3; ++k) {
+      stretches[k] = 1 + (piola[k] - mean) / (2 * shear);
+      if (!isSmall(stretches[k] - 1)) return std::nullopt;
+    }
+  }
+  return SpatialStretch{turned(stress, radius, stretches[0], stretches[1]), stretches[2]};
+}
+
 /// F = d·D⁻¹ is the stretch S for the present edges d: D⁻¹ = d⁻¹·S.
 void stretch(Triangles& triangles, ElementId element, const std::array<double, 3>& stretch) {
   const auto [xx, yy, xy] = stretch;
@@ -77,11 +99,12 @@ void stretch(Triangles& triangles, ElementId element, const std::array<double, 3
 namespace {
 
 void addMasses(Model& model, const Component& c) {
-  double density = c.material.density * c.thickness;
   for (std::size_t t = c.firstTriangle; t < c.lastTriangle; ++t) {
-    if (c.isMixed()) density = model.materialOf(ElementId(t)).material.density * c.thickness;
-    for (const NodeId node : model.triangles.nodes[t])
-      model.nodes.mass[node.value] += density * model.triangles.area[t] / 3;
+    const ElementId e(t);
+    const double density = model.materialOf(e).material.density * model.depthOf(e);
+    for (std::size_t i = 0; i < 3; ++i)
+      model.nodes.mass[model.triangles.nodes[t][i].value] +=
+          density * model.triangles.area[t] / 3 * model.massShare(e, i);
   }
 }
 
@@ -121,7 +144,7 @@ std::vector<double> addStress(Model& model, const Component& added,
   std::vector<double> thickness;
   const bool isSpatial = !across.empty() && !added.material.planeStress;
   if (isSpatial && added.yields()) thickness.resize(stress.size(), 1);
-  if ((isSpatial && !added.yields()) || !triangles.stressAcross.empty())
+  if ((isSpatial && !added.yields() && !model.axisymmetric) || !triangles.stressAcross.empty())
     triangles.stressAcross.resize(triangles.size());
   for (std::size_t t = 0; t < stress.size(); ++t) {
     const ElementId element(added.firstTriangle + t);
@@ -131,6 +154,12 @@ std::vector<double> addStress(Model& model, const Component& added,
       const SpatialStretch all = stretchOf(material, stress[t], across[t]).value();
       stretch(triangles, element, all.plane);
       thickness[t] = all.across;
+      continue;
+    }
+    if (isGiven && model.axisymmetric) {
+      const SpatialStretch all = stretchAround(material, stress[t], across[t]).value();
+      stretch(triangles, element, all.plane);
+      triangles.radius[element.value] /= all.across;
       continue;
     }
     stretch(triangles, element, stretchOf(material, stress[t]).value());
@@ -216,6 +245,9 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   }
   added.lastTriangle = static_cast<std::uint32_t>(triangles.size());
   triangles.component.resize(triangles.size(), id);
+  if (model.axisymmetric)
+    for (const auto& [a, b, c] : mesh.triangles)
+      triangles.radius.push_back((mesh.nodes[a].x + mesh.nodes[b].x + mesh.nodes[c].x) / 3);
   appendMaterials(model, materials, added);
   model.components.push_back(added);
   const std::vector<double> thickness = addStress(model, added, stress, across);

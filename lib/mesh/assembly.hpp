@@ -53,6 +53,10 @@ struct SpatialStretch {
 [[nodiscard]] std::optional<SpatialStretch> stretchOf(const ElasticMaterial& material,
                                                       const std::array<double, 3>& stress,
                                                       double across);
+/// The same by the law of elements/elastic_law.hpp, with the stress around the axis (Pa).
+[[nodiscard]] std::optional<SpatialStretch> stretchAround(const ElasticMaterial& material,
+                                                          const std::array<double, 3>& stress,
+                                                          double around);
 
 /// Changes a triangle without stress so that its present shape is stretched by this much: its
 /// stress-free edges and area become those before the stretch.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,9 @@ struct Triangles {
   /// (Pa) Of bodies that do not yield, in plane strain: initial stress across the plane without the
   /// part of that in the plane, Poisson's ratio times (xx + yy). Empty: none.
   std::vector<double> stressAcross;
+  /// (m) Stress-free distance of the centroid from the axis, in an axisymmetric scene; empty in a
+  /// plane one.
+  std::vector<double> radius;
   PlasticState plastic;
 
   /// All arrays by triangle, likewise.
@@ -82,6 +86,7 @@ struct Triangles {
       visit(Column{"triangleComponent"}, self.component);
       visit(Column{"triangleMaterial", kOptional}, self.material);
       visit(Column{"stressAcross", kOptional}, self.stressAcross);
+      visit(Column{"radius", kOptional}, self.radius);
       PlasticState::columnsOf(self.plastic)(visit);
     };
   }
@@ -129,6 +134,9 @@ struct Model {
   std::vector<Component> components;
   std::vector<BodyMaterial> materials;  ///< of bodies with several, body by body
   std::vector<Motion> motions;          ///< motions of held nodes
+  /// True: x is the distance from the axis, y the place along it; masses, forces and energies are
+  /// those of a full turn. It changes only without bodies.
+  bool axisymmetric = false;
 
   [[nodiscard]] const Component& bodyOf(ElementId element) const {
     return components[triangles.component[element.value].value];
@@ -137,6 +145,30 @@ struct Model {
     const Component& body = bodyOf(element);
     if (!body.isMixed()) return body;
     return materials[body.firstMaterial + triangles.material[element.value]];
+  }
+  /// (m) Extent of a triangle across the plane: the body's thickness, or the circle of its
+  /// stress-free centroid, with which an area has its exact volume (Pappus).
+  [[nodiscard]] double depthOf(ElementId element) const {
+    if (axisymmetric) return 2 * std::numbers::pi * triangles.radius[element.value];
+    return bodyOf(element).thickness;
+  }
+  /// True for a node of the axis, which moves along it only.
+  [[nodiscard]] bool isOnAxis(NodeId node) const {
+    return axisymmetric && nodes.reference[node.value].x == 0;
+  }
+  /// (m) The same of a side between two places of its body.
+  [[nodiscard]] double depthOf(const Component& body, Vec2 a, Vec2 b) const {
+    return axisymmetric ? std::numbers::pi * (a.x + b.x) : body.thickness;
+  }
+  /// Three times a corner's part of the triangle's mass: 1 in the plane. With an axis it is that of
+  /// the integral of Nᵢ over the volume, so that waves along the axis are plane at all radii;
+  /// thirds make the nodes on the axis heavier by a third.
+  [[nodiscard]] double massShare(ElementId element, std::size_t corner) const {
+    if (!axisymmetric) return 1;
+    const auto& corners = triangles.nodes[element.value];
+    const auto x = [&](std::size_t i) { return nodes.reference[corners[i].value].x; };
+    const double sum = x(0) + x(1) + x(2);
+    return .75 * (1 + x(corner) / sum);
   }
 };
 

@@ -82,6 +82,7 @@ bool triangleIsValid(const Model& model, std::size_t element) {
   if (materials > 0 && t.material[element] >= materials) return false;
   return element >= components[body].firstTriangle && element < components[body].lastTriangle &&
          t.area[element] >= 0 && std::isfinite(t.area[element]) &&
+         (!model.axisymmetric || isPositive(t.radius[element])) &&
          std::ranges::all_of(t.inverseEdges[element], [](double v) { return std::isfinite(v); });
 }
 
@@ -101,6 +102,7 @@ bool trianglesAreValid(const Model& model) {
   const Triangles& t = model.triangles;
   const std::size_t count = t.size();
   if (!haveLength(t.columns(), count)) return false;
+  if (t.radius.size() != (model.axisymmetric ? count : 0)) return false;
   if (!yieldingIsValid(model)) return false;
   for (std::size_t e = 0; e < count; ++e)
     if (!triangleIsValid(model, e)) return false;

@@ -69,6 +69,7 @@ void World::advance(double dt) {
   fracture.cohesion.finish(model.nodes, length);
   if (canTouch()) countContactWork(length);
   requireUpright(dt);
+  if (model.axisymmetric) requireOutsideAxis();
 
   // Work of all forces except contact, with the mean of both velocities.
   finish(length);

@@ -35,8 +35,8 @@ void setResistance(Model& model, ComponentId id, const BodySpec& spec) {
     const std::size_t i = e - body.firstTriangle;
     if (!byPlace.empty()) resistance[e] = byPlace[i];
     if (isScattered)
-      resistance[e] *=
-          scatterFactor(spec.brittle, number + i, body.thickness * model.triangles.area[e]);
+      resistance[e] *= scatterFactor(spec.brittle, number + i,
+                                     model.depthOf(ElementId(e)) * model.triangles.area[e]);
   }
 }
 
@@ -49,8 +49,10 @@ BrittlePlaces edgePlaces(const BodySpec& spec) {
 
 }  // namespace
 
-ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
-  checkBody(mesh, spec);
+ComponentId World::addBody(const TriangleMesh& given, const BodySpec& spec) {
+  checkBody(given, spec);
+  const TriangleMesh moved = model.axisymmetric ? besideAxis(given, spec) : TriangleMesh{};
+  const TriangleMesh& mesh = model.axisymmetric ? moved : given;
   requireApart(mesh, spec, "The new body");
   Component component;
   static_cast<BodyMaterial&>(component) = wholeOf(spec);
@@ -69,6 +71,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
     if (!spec.velocity.empty()) model.nodes.velocity[first + i] = spec.velocity[i];
     if (!spec.held.empty()) model.nodes.held[first + i] = spec.held[i];
   }
+  holdOnAxis(NodeId(first));
   for (const auto& loop : mesh.loops) {
     std::vector<NodeId> nodes;
     std::vector<std::uint8_t> smooth;

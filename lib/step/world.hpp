@@ -100,7 +100,10 @@ struct RigidSpec {
 
 class World {
  public:
-  /// Both throw InputError before anything is changed.
+  /// With or without an axis (Model::axisymmetric), as long as there are no bodies: InputError
+  /// otherwise.
+  void setAxisymmetric(bool on);
+  /// Both throw InputError before anything is changed. With an axis, nodes on it are held in x.
   ComponentId addBody(const TriangleMesh& mesh, const BodySpec& spec);
   void removeBody(ComponentId component);
   /// Throws InputError, before anything is changed, if it overlaps a body.
@@ -227,6 +230,9 @@ class World {
   [[nodiscard]] std::uint64_t numSearches() const { return search.count; }
 
  private:
+  [[nodiscard]] TriangleMesh besideAxis(TriangleMesh mesh, const BodySpec& spec) const;
+  void holdOnAxis(NodeId first);
+  void requireOutsideAxis() const;
   void absorb(const StepLength& length);
   void requireNodes(std::span<const NodeId> nodes) const;
   void removeUnusedMotions();

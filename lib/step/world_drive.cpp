@@ -41,6 +41,7 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
     if (!model.nodes.motion.empty()) model.nodes.motion[node] = 0;
     if ((held & kHeldX) != 0) present.x = velocity[i].x;
     if ((held & kHeldY) != 0) present.y = velocity[i].y;
+    if (model.isOnAxis(nodes[i])) model.nodes.held[node] |= kHeldX, present.x = 0;
     // The dynamics counts the work of a velocity jump of nodes that were held before; after a
     // rebuild it has no such nodes.
     if (changed)
@@ -58,6 +59,8 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
       throw InputError("The times of a motion must ascend, and its values be finite.");
   if (!motion.turn.times().empty() && held != kHeldXY)
     throw InputError("A motion that turns must hold both directions.");
+  if (!motion.turn.times().empty() && model.axisymmetric)
+    throw InputError("Around an axis no body can turn in the plane.");
   motion.begin = time;
   Nodes& all = model.nodes;
   all.motion.resize(all.size()), all.arm.resize(all.size());
@@ -66,7 +69,7 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   for (const NodeId node : nodes) {
     if (all.mass[node.value] == 0) continue;  // of a removed triangle
     if (all.held[node.value] != held) noteChange();
-    all.held[node.value] = held;
+    all.held[node.value] = held | (model.isOnAxis(node) ? kHeldX : kFree);
     all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
     all.arm[node.value] = all.position[node.value] - added.centre;
   }
@@ -113,7 +116,7 @@ void World::drive(double dt) {
                         : function != 0
                             ? givenVelocities[n]
                             : (1 / dt) * (frames[m].place(nodes.arm[n]) - nodes.position[n]);
-    if ((nodes.held[n] & kHeldX) != 0) velocity.x = wanted.x;
+    if ((nodes.held[n] & kHeldX) != 0) velocity.x = model.isOnAxis(NodeId(n)) ? 0 : wanted.x;
     if ((nodes.held[n] & kHeldY) != 0) velocity.y = wanted.y;
   }
 }

@@ -35,9 +35,8 @@ const ElasticMaterial& elasticOf(const Model& model, std::size_t element) {
 
 /// (N/m) Stiffness of an element at each of its corners.
 std::array<double, 3> cornerStiffness(const Model& model, std::size_t element) {
-  const Component& c = componentOf(model, element);
-  const double modulus =
-      elasticOf(model, element).waveModulus() * c.thickness * model.triangles.area[element];
+  const double modulus = elasticOf(model, element).waveModulus() *
+                         model.depthOf(ElementId(element)) * model.triangles.area[element];
   std::array<double, 3> stiffness;
   const auto gradient = gradients(model, element);
   for (int i = 0; i < 3; ++i) stiffness[i] = modulus * dot(gradient[i], gradient[i]);
@@ -56,15 +55,17 @@ std::vector<double> nodeStiffness(const Model& model) {
 
 using Masses = std::array<double, 3>;
 
-/// (of the element's mass) The element's parts of its nodes' masses. They are thirds if the element
-/// may separate from its neighbours by cracks, since the time step must then be stable for it
-/// alone. As ratios, their products do not overflow.
+/// (of the element's mass) The element's parts of its nodes' masses. They are its own if the
+/// element may separate from its neighbours by cracks, since the time step must then be stable for
+/// it alone. As ratios, their products do not overflow.
 Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
                   std::size_t element) {
   const Component& c = componentOf(model, element);
-  if (c.brittle.cracks()) return {1. / 3, 1. / 3, 1. / 3};
+  const ElementId e(element);
+  if (c.brittle.cracks())
+    return {model.massShare(e, 0) / 3, model.massShare(e, 1) / 3, model.massShare(e, 2) / 3};
   const double own =
-      elasticOf(model, element).density * c.thickness * model.triangles.area[element];
+      elasticOf(model, element).density * model.depthOf(e) * model.triangles.area[element];
   Masses shares = cornerStiffness(model, element);
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t n = model.triangles.nodes[element][i].value;
@@ -74,22 +75,42 @@ Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
 }
 
 /// (1/s²) Bound of ω² of the barrier against collapse, with a margin: of its curvature along ∇J,
-/// and of its slope, as the largest curvature of J is √3/(2A).
-double squaredBarrierFrequency(const ElasticMaterial& material, const Matrix2& f,
-                               const std::array<Vec2, 3>& gradient, const Masses& mass) {
-  const CollapseBarrier barrier(determinant(f), material.waveModulus());
+/// and of its slope, as the largest curvature of J is √3/(2A). `round` (1/m): the part of the hoop
+/// stretch of a node's x.
+double squaredBarrierFrequency(const ElasticMaterial& material, const Deformation& now,
+                               double round, const std::array<Vec2, 3>& gradient,
+                               const Masses& mass) {
+  const CollapseBarrier barrier(now.volume(), material.waveModulus());
   if (barrier.curvature == 0) return 0;
-  const Matrix2 c = cofactor(f);
+  const Matrix2 c = cofactor(now.plane);
   double sum = 0;  // Σ|∂J/∂xᵢ|²/m
   for (int i = 0; i < 3; ++i) {
-    const Vec2 g{c.xx * gradient[i].x + c.xy * gradient[i].y,
-                 c.yx * gradient[i].x + c.yy * gradient[i].y};
+    const Vec2 g{
+        now.hoop * (c.xx * gradient[i].x + c.xy * gradient[i].y) + round * determinant(now.plane),
+        now.hoop * (c.yx * gradient[i].x + c.yy * gradient[i].y)};
     sum += dot(g, g) / mass[i];
   }
-  const double turn = std::sqrt(3.) * std::abs(cross(gradient[1], gradient[2])) /
+  const double turn = now.hoop * std::sqrt(3.) * std::abs(cross(gradient[1], gradient[2])) /
                       std::min({mass[0], mass[1], mass[2]});
   return tolerance::kBarrierGrowth * (barrier.curvature * sum - barrier.slope * turn) /
          material.density;
+}
+
+/// (1/m) Hoop stretch per displacement of a corner along x.
+double hoopSlope(const Model& model, std::size_t element) {
+  return model.axisymmetric ? 1 / (3 * model.triangles.radius[element]) : 0;
+}
+
+/// (Pa/m²) What the strain along the circle around the axis adds at most, by its own stiffness: the
+/// largest eigenvalue of a positive matrix is at most the sum of those of two diagonal blocks.
+double aroundAxis(const Model& model, std::size_t element, const Masses& mass) {
+  if (!model.axisymmetric) return 0;
+  double slope = hoopSlope(model, element);
+  if (componentOf(model, element).yields()) slope *= model.triangles.plastic.thickness[element];
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!model.isOnAxis(model.triangles.nodes[element][i])) sum += 1 / mass[i];
+  return elasticOf(model, element).waveModulus() * slope * slope * sum;
 }
 
 /// ω² of the highest mode of one element. The elastic law is linear in F except for the rotation,
@@ -114,13 +135,13 @@ double squaredFrequency(const Model& model, std::size_t element, const Masses& m
   const double modulus = lame + 2 * shear;
   const double product = 4 * (shear / modulus) * ((lame + shear) / modulus) * shape;
   const double stretch = sum * (1 + std::sqrt(std::max(0., 1 - 4 * product))) / 2;
-  const Matrix2 f = deformationGradient(model, ElementId(element));
   const Matrix2 elastic = elasticGradient(model, ElementId(element));
   const double drawn =
       std::hypot(elastic.xx + elastic.yy, elastic.yx - elastic.xy);  // 2 without stretch
   const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
-  return std::max(stretch, turn) / material.density +
-         squaredBarrierFrequency(material, f, gradient, mass);
+  return (std::max(stretch, turn) + aroundAxis(model, element, mass)) / material.density +
+         squaredBarrierFrequency(material, deformation(model, ElementId(element)),
+                                 hoopSlope(model, element), gradient, mass);
 }
 
 /// (1/s) The fastest decay rate of the element's bulk viscosity, in its present shape.

@@ -5,15 +5,19 @@
 namespace yadefrag {
 namespace {
 
-/// (J/m) Twice an element's energy at the half step, per thickness.
+/// (J/m) Twice an element's energy at the half step, per depth.
 double twiceEnergy(const Model& model, ElementId element, const Moduli& moduli, double dt) {
   const auto [lame, shear] = moduli;
-  const Matrix2 now = deformationGradient(model, element);
-  const Matrix2 before = now - deformationStep(model, element, dt);
-  const Matrix2 stress = firstPiola(now, lame, shear) - firstPiola(before, lame, shear);
+  const Deformation now = deformation(model, element);
+  const Deformation before = deformationBefore(model, element, dt);
+  const HoopStress after = hoopStress(now.plane, now.hoop - 1, lame, shear),
+                   former = hoopStress(before.plane, before.hoop - 1, lame, shear);
   return model.triangles.area[element.value] *
-         (energyDensity(now, lame, shear) + energyDensity(before, lame, shear) -
-          contract(stress, now - before) / 2 + twiceBarrierEnergy(now, before, lame + 2 * shear));
+         (energyDensity(now.plane, lame, shear, now.hoop - 1) +
+          energyDensity(before.plane, lame, shear, before.hoop - 1) -
+          contract(after.plane - former.plane, now.plane - before.plane) / 2 -
+          (after.hoop - former.hoop) * (now.hoop - before.hoop) / 2 +
+          twiceBarrierEnergy(now, before, lame + 2 * shear));
 }
 
 }  // namespace
@@ -51,9 +55,10 @@ double strainEnergy(const Model& model, double dt) {
     Moduli moduli(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
       moduli.take(model, c, ElementId(e));
-      twice += twiceEnergy(model, ElementId(e), moduli, dt);
+      const double depth = model.axisymmetric ? model.depthOf(ElementId(e)) : 1;
+      twice += twiceEnergy(model, ElementId(e), moduli, dt) * depth;
     }
-    sum += twice * c.thickness / 2;
+    sum += model.axisymmetric ? twice / 2 : twice * c.thickness / 2;
   }
   return sum;
 }
@@ -64,7 +69,7 @@ double strainEnergy(const Model& model, double dt, std::span<const ElementId> el
     const Component& c = model.bodyOf(element);
     if (c.element == ElementKind::kLinear && !c.yields())
       sum += twiceEnergy(model, element, Moduli(model.materialOf(element).material), dt) *
-             c.thickness / 2;
+             model.depthOf(element) / 2;
   }
   return sum;
 }

@@ -155,7 +155,8 @@ void ExplicitDynamics::sumForces(Model& model, std::size_t index, std::size_t pa
   } else if (chunk.element == ElementKind::kSmoothed) {
     smoothing_.addForces(set_, elements_, chunk, model.nodes.mass, scratch.room, force);
   } else {
-    if (!addElasticForces(set_, chunk, lanes, laws, position, force, scratch.stressed))
+    if (!addElasticForces(set_, chunk, lanes, laws, elements_.hoopsIfAny(), position, force,
+                          scratch.stressed))
       handleFlat(model, chunk, scratch);
   }
 }
@@ -181,7 +182,8 @@ void ExplicitDynamics::sumChunk(Model& model, std::size_t index, const BulkVisco
     Vec2* viscous = velocity + elements_.mostNodes;
     fetchNodes(elements_, chunk, model.nodes.velocity, velocity);
     std::fill_n(viscous, count, Vec2{});
-    addViscousForces(viscosity, chunk, lanes, laws, position, velocity, viscous);
+    addViscousForces(viscosity, chunk, lanes, laws, model.axisymmetric, position, velocity,
+                     viscous);
     for (std::size_t i = 0; i < count; ++i) force[i] += viscous[i];
     scatter(elements_, chunk, viscous, viscousForce_, partialViscous_);
   }

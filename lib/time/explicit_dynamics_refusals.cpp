@@ -39,13 +39,13 @@ void ExplicitDynamics::handleFlat(const Model& model, const Chunk& chunk, Scratc
 /// (N) Forces of the chunk's elements that resist collapse.
 void ExplicitDynamics::addBarrierForces(const Model& model, const Chunk& chunk, Vec2* force) const {
   for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e) {
-    const Matrix2 f = deformationGradient(model, ElementId(e));
+    const Deformation f = deformation(model, ElementId(e));
     const ElasticMaterial& material = model.materialOf(ElementId(e)).material;
-    const CollapseBarrier barrier(determinant(f), material.waveModulus());
+    const CollapseBarrier barrier(f.volume(), material.waveModulus());
     if (barrier.slope == 0) continue;
-    const Matrix2 c = cofactor(f);
+    const Matrix2 c = cofactor(f.plane);
     const auto& inverse = model.triangles.inverseEdges[e];
-    const double pull = -barrier.slope * model.triangles.area[e] * chunk.thickness;
+    const double push = -barrier.slope * volumeOf(model, ElementId(e)), pull = push * f.hoop;
     const Vec2 f1{pull * (c.xx * inverse[0] + c.xy * inverse[1]),
                   pull * (c.yx * inverse[0] + c.yy * inverse[1])};
     const Vec2 f2{pull * (c.xx * inverse[2] + c.xy * inverse[3]),
@@ -55,6 +55,9 @@ void ExplicitDynamics::addBarrierForces(const Model& model, const Chunk& chunk, 
     force[corner[0][i % kLanes]] -= f1 + f2;
     force[corner[1][i % kLanes]] += f1;
     force[corner[2][i % kLanes]] += f2;
+    if (!model.axisymmetric) continue;
+    for (const auto& one : corner)
+      force[one[i % kLanes]].x += push * determinant(f.plane) / (3 * model.triangles.radius[e]);
   }
 }
 
@@ -63,7 +66,7 @@ ExplicitDynamics::Flattest ExplicitDynamics::requireUpright(const Model& model, 
   Flattest found;
   const auto check = [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      const double area = determinant(deformationGradient(model, ElementId(e)));
+      const double area = deformation(model, ElementId(e)).volume();
       if (!(area > 0))
         throw RunError(fmt::format("{} is inverted in a step of {:g} s; take a shorter one.",
                                    nameOf(model, ElementId(e), previousPosition_), dt));

@@ -18,6 +18,14 @@ const Component& bodyOf(const Model& model, const ContactSurfaces& surfaces, Seg
   return model.components[surfaces.component[surfaces.segmentEntry[segment.value].value].value];
 }
 
+/// (m) Depth of the part of a side that is an end's: with an axis, of a uniform load on a cone, two
+/// thirds of the end's circle and one third of the other's.
+double depthAt(const Model& model, const Component& body, const Ends& ends, NodeId node) {
+  const NodeId other = node == ends.first ? ends.last : ends.first;
+  const Vec2 here = model.nodes.position[node.value], there = model.nodes.position[other.value];
+  return model.depthOf(body, here, (1. / 3) * here + (2. / 3) * there);
+}
+
 }  // namespace
 
 void addPressure(const Model& model, const ContactSurfaces& surfaces,
@@ -27,10 +35,9 @@ void addPressure(const Model& model, const ContactSurfaces& surfaces,
     const Ends ends(surfaces, segment);
     const Vec2 along =
         model.nodes.position[ends.last.value] - model.nodes.position[ends.first.value];
-    const Vec2 half =
-        (-.5 * pressure * bodyOf(model, surfaces, segment).thickness) * rightOf(along);
-    forces[ends.first.value] += half;
-    forces[ends.last.value] += half;
+    const Component& body = bodyOf(model, surfaces, segment);
+    for (const NodeId node : {ends.first, ends.last})
+      forces[node.value] += (-.5 * pressure * depthAt(model, body, ends, node)) * rightOf(along);
   }
 }
 
@@ -78,14 +85,15 @@ void AbsorbingBoundary::collect(const Model& model, const ContactSurfaces& surfa
     const Component& body = bodyOf(model, surfaces, segment);
     const ElasticMaterial& m =
         behind_.empty() ? body.material : model.materialOf(behind_[i]).material;
-    const double half = .5 * length * body.thickness;
-    const double normal = half * std::sqrt(m.density * m.waveModulus());
-    const double shear = half * std::sqrt(m.density * m.shearModulus());
     const Vec2 t = (1 / length) * along, n = rightOf(t);
-    for (const NodeId node : {ends.first, ends.last})
+    for (const NodeId node : {ends.first, ends.last}) {
+      const double half = .5 * length * depthAt(model, body, ends, node);
+      const double normal = half * std::sqrt(m.density * m.waveModulus());
+      const double shear = half * std::sqrt(m.density * m.shearModulus());
       dashpots_.push_back({node, normal * n.x * n.x + shear * t.x * t.x,
                            normal * n.x * n.y + shear * t.x * t.y,
                            normal * n.y * n.y + shear * t.y * t.y});
+    }
   }
   // Both segments at a node act as one.
   std::ranges::stable_sort(dashpots_, {}, [](const Dashpot& d) { return d.node.value; });

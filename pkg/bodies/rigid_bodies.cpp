@@ -173,7 +173,7 @@ FormerCorners RigidBodies::formerCorners(const yade::Scene& scene, const World& 
 }
 
 /// Parts of the members in the plane, without removed bodies.
-std::vector<RigidPart> RigidBodies::parts(const yade::Scene& scene,
+std::vector<RigidPart> RigidBodies::parts(const yade::Scene& scene, bool axisymmetric,
                                           std::vector<std::uint32_t>& memberOf,
                                           const yade::NewtonIntegrator* newton) {
   std::vector<RigidPart> all;
@@ -185,6 +185,12 @@ std::vector<RigidPart> RigidBodies::parts(const yade::Scene& scene,
     member.isNew = false;
     member.position = body.state->se3.position, member.orientation = body.state->se3.orientation;
     if (!section) continue;
+    if (axisymmetric && !isAroundAxis(*section))
+      throw InputError(fmt::format(
+          "FESolver is axisymmetric, but {} #{} does not turn into itself around the "
+          "axis: only walls with axis = 1, and boxes with x = 0 and sides along x and y "
+          "do.",
+          body.shape->getClassName(), member.id));
     member.mover = moverIdOf(scene, body, newton);
     if (newton) warnOfMoments(member, moverOf(scene, body), *newton);
     const RigidPose now(body), then(body, movingTime(scene, newton));
@@ -228,7 +234,7 @@ void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries,
     return !body || body != member.body.get() || !body->shape;
   });
   std::vector<std::uint32_t> memberOf;
-  const std::vector<RigidPart> sections = parts(scene, memberOf, newton);
+  const std::vector<RigidPart> sections = parts(scene, world.model.axisymmetric, memberOf, newton);
   const Extent extent(world);
   const double farthest = farthestOf(world);
   corners_.clear();

@@ -76,7 +76,7 @@ class RigidBodies {
   [[nodiscard]] static bool comesBack(Member& member);
   void build(yade::Scene& scene, World& world, EntryBodies& entries,
              const yade::NewtonIntegrator* newton);
-  [[nodiscard]] std::vector<RigidPart> parts(const yade::Scene& scene,
+  [[nodiscard]] std::vector<RigidPart> parts(const yade::Scene& scene, bool axisymmetric,
                                              std::vector<std::uint32_t>& memberOf,
                                              const yade::NewtonIntegrator* newton);
   void startMoving(const yade::Scene& scene, World& world) const;

@@ -36,7 +36,9 @@ void RigidBodies::giveVelocities(yade::Scene& scene, World& world,
       const auto [at, isNew] = numbers.emplace(member.mover, number);
       if (isNew) {
         motions.push_back(movers_.motionOf(scene, *newton, moverOf(scene, *member.body)));
-        world.rigidMasses.masses.push_back(motions.back().mass());
+        RigidMass mass = motions.back().mass();
+        if (world.model.axisymmetric) mass.mobility.x = 0, mass.turning = 0;
+        world.rigidMasses.masses.push_back(mass);
       }
       world.rigidMasses.members.push_back({node, at->second});
       place = motions[at->second].place(RigidPose(*member.body).place(corners_[i].place));
@@ -92,7 +94,8 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world, const StepL
       velocity +=
           sign * row.weight[k] / 2 * (world.formerVelocities()[node] + nodes.velocity[node]);
     }
-    const Vec2 force = sign * length.velocity / length.position * row.force();
+    Vec2 force = sign * length.velocity / length.position * row.force();
+    if (world.model.axisymmetric) force.x = point.x = 0;  // that of the other side is opposite
     const Vec2 arm = point - inPlane(body.state->se3.position);
     given.add(scene, {body.id, inSpace(force), Vector3r(0, 0, cross(arm, force)),
                       length.position * dot(force, velocity)});

@@ -112,6 +112,20 @@ bool isFlat(const yade::Body& body) {
                              [&](const Vector3r& at) { return std::abs(at[2]) <= rounding; });
 }
 
+bool isAroundAxis(const Section& section) {
+  const std::vector<Vec2>& points = section.points;
+  if (section.kind == Section::Kind::kWall) return points[0].y == points[1].y;
+  double size = 0, sum = 0;
+  for (const Vec2 at : points) size = std::max(size, std::abs(at.x)), sum += at.x;
+  const double rounding = tolerance::kInPlane * size;
+  bool isUpright = section.kind == Section::Kind::kOutline && points.size() == 4;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 along = points[(i + 1) % points.size()] - points[i];
+    isUpright = isUpright && std::min(std::abs(along.x), std::abs(along.y)) <= rounding;
+  }
+  return isUpright && std::abs(sum) <= rounding;
+}
+
 std::vector<double> formOf(const yade::Shape& shape) {
   std::vector<double> form;
   const auto add = [&](const Vector3r& v) {

@@ -25,6 +25,9 @@ struct Section {
 /// No value for a body that does not intersect the plane, and for a facet in the plane (`isFlat`).
 [[nodiscard]] std::optional<Section> sectionOf(const yade::Body& body);
 [[nodiscard]] bool isFlat(const yade::Body& body);
+/// True for the section of a body that turns around x = 0 into itself: a wall across the axis, or a
+/// box with its middle on it, which stands for a cylinder.
+[[nodiscard]] bool isAroundAxis(const Section& section);
 /// Numbers that change if the shape changes.
 [[nodiscard]] std::vector<double> formOf(const yade::Shape& shape);
 

@@ -37,7 +37,7 @@ class WorldArchive : ColumnArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 22;
+  static constexpr std::uint64_t kFormat = 23;
 
   void all(World& world, std::vector<int>& entryBodies, std::vector<Vec2>& forces) {
     std::uint64_t format = kFormat;
@@ -61,6 +61,7 @@ class WorldArchive : ColumnArchive {
   }
 
   void state(World& world) {
+    value("axisymmetric", world.model.axisymmetric);
     table(world.model.nodes.columns());
     motions(world.model.motions);
     table(world.model.triangles.columns());

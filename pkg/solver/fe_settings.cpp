@@ -40,6 +40,9 @@ void FESettings::check() const {
   if (!gravity.allFinite() || gravity[2] != 0)
     refuse("gravity", fmt::format("({:g}, {:g}, {:g})", gravity[0], gravity[1], gravity[2]),
            "finite, and z must be 0: bodies move in the plane z = 0 only");
+  if (axisymmetric && gravity[0] != 0)
+    refuse("gravity", fmt::format("({:g}, {:g}, {:g})", gravity[0], gravity[1], gravity[2]),
+           "along the axis, y, since the scene is axisymmetric");
   const auto isViscosity = [](double v) { return v >= 0 && v <= tolerance::kMostViscosity; };
   const char* viscosity = "0 or positive, and at most 1e6";
   if (!isViscosity(linearViscosity)) refuseNumber("linearViscosity", linearViscosity, viscosity);
@@ -50,9 +53,10 @@ void FESettings::check() const {
 void FESolver::postLoad(FESolver& /*self*/) {
   try {
     settings.check();
-  } catch (const std::invalid_argument&) {
+    world_.setAxisymmetric(settings.axisymmetric);
+  } catch (const std::exception& error) {
     settings = former_;
-    throw;
+    throw std::invalid_argument(error.what());
   }
   giveSettings();
 }
@@ -117,6 +121,9 @@ Attributes FESolver::attributes() {
                 "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
                 "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "
                 "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."),
+      setting("axisymmetric", &C::axisymmetric,
+              "Bodies around an axis: x is the distance from it, y the place along it; masses, "
+              "forces and energies are those of a full turn. Changes only without bodies."),
       setting("view", &C::view,
               "Meaning of the bodies' colours in YADE's 3D view: 'component', 'fragment', or "
               "'mises', from blue at 0 to red at the largest."));

@@ -161,6 +161,10 @@ void FESolver::checkScene(bool enginesAreNew) {
   const std::size_t first = around_.checked();
   const bool bodiesAreNew = around_.check(*scene);
   takeGravity(newton);
+  if (settings.axisymmetric) {
+    around_.requireRound();
+    settings.check();
+  }
   if (around_.hasNewSpheres()) report({overlapWithSphere(first)});
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   report(materials_.sentences());

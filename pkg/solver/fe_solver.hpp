@@ -79,6 +79,7 @@ struct FESettings {
   int maxCracks = -1;
   double minFragmentArea = 0;
   std::string view = "component";
+  bool axisymmetric = false;
 
   /// Throws std::invalid_argument.
   void check() const;

@@ -1,5 +1,7 @@
 #include "solver/scene_watch.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -63,6 +65,15 @@ bool SceneWatch::noteSphere(const yade::Body& body, double radius) {
   note(height > tolerance::kInPlane * radius || body.state->vel[2] != 0, leaving_);
   note(true, loose_);
   return isNew;
+}
+
+void SceneWatch::requireRound() const {
+  for (const Kind& kind : kinds_)
+    if (kind.name != "Wall" && kind.name != "Box")
+      throw std::invalid_argument(fmt::format(
+          "FESolver is axisymmetric, and body #{} has the shape {}: around the axis there can be "
+          "only FE bodies, walls across it, and boxes on it.",
+          kind.first, kind.name));
 }
 
 std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity, bool rigidBodies,

@@ -21,6 +21,8 @@ class SceneWatch {
   [[nodiscard]] bool hasNewSpheres() const { return hasNewSpheres_; }
   /// A body that obeys forces; -1 if there was none.
   [[nodiscard]] yade::Body::id_t free() const { return free_; }
+  /// Throws std::invalid_argument if there are bodies that have no meaning around an axis.
+  void requireRound() const;
   /// Messages about these bodies, from yadefrag/scene/scene_check.py; none if that fails.
   /// `gravity`: m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and
   /// facets is on; `thickness`: m, largest of the bodies of FESolver. Acquires Python's lock.

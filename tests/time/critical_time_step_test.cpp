@@ -10,41 +10,6 @@
 namespace yadefrag {
 namespace {
 
-constexpr double kTiny = 1e-9;  // of the nodes' distances: geometry is linear
-
-/// 2/ω of the fastest mode of the assembled mesh, by power iteration on M⁻¹K, around its present
-/// shape.
-double trueCriticalStep(const Model& model) {
-  Model moved = model;
-  shake(moved, 1);
-  std::vector<Vec2> mode = moved.nodes.velocity;
-  ExplicitDynamics dynamics;
-  dynamics.rebuild(model);
-  double omega2 = 1;
-  for (int i = 0; i < 3000; ++i) {
-    double scale = 0;
-    for (const Vec2 u : mode) scale = std::max(scale, norm(u));
-    double energy = 0;
-    double mass = 0;
-    std::vector<Vec2> difference(mode.size());  // of the forces on either side
-    for (const double side : {1., -1.}) {
-      for (std::size_t n = 0; n < mode.size(); ++n)
-        moved.nodes.position[n] = model.nodes.position[n] + side * kTiny / scale * mode[n];
-      dynamics.predict(moved, 0, {}, {}, 1);
-      for (std::size_t n = 0; n < mode.size(); ++n)
-        difference[n] += side * dynamics.internalForces()[n];
-    }
-    for (std::size_t n = 0; n < mode.size(); ++n) {
-      const Vec2 stiff = -scale / (2 * kTiny) * difference[n];
-      energy += dot(mode[n], stiff);
-      mass += model.nodes.mass[n] * dot(mode[n], mode[n]);
-      mode[n] = 1 / (scale * model.nodes.mass[n] * omega2) * stiff;
-    }
-    omega2 = energy / mass;
-  }
-  return 2 / std::sqrt(omega2);
-}
-
 void checkBound(const Model& model, double sharpness) {
   const double bound = criticalTimeStep(model);
   const double truth = trueCriticalStep(model);

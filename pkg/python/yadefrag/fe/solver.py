@@ -30,6 +30,14 @@ from yadefrag.scene.scene_check import addSolver
 _ELEMENTS = ('linear', 'smoothed')
 
 
+def _requireRound(spin, thickness):
+    """Of a body around an axis."""
+    if spin:
+        refuse('spin', spin, '0 around an axis: a body that turns in the plane is no ring')
+    if thickness != 1:
+        refuse('thickness', thickness, 'left out around an axis: a body is a full turn')
+
+
 def _centroid(nodes, triangles):
     corners = nodes[triangles]
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -116,6 +124,8 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocit
     spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
     selfContact = flag('selfContact', selfContact)
     thickness = positive('thickness', thickness, 'm')
+    if fe.axisymmetric:
+        _requireRound(spin, thickness)
     moved = field('displacement', displacement, nodes)
     flows = materials.yields and not any(one.planeStress for one in materials.of)
     stressed, across = stressOfTriangles(stress, mesh, flows)
@@ -137,7 +147,10 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocit
     addSolver(fe)
     if fixed is not None:
         noteFixed(fixed, component, bool(held.any()))
-    keepTurning(fe, component, held, given, spin, present, centroid)
+    if not fe.axisymmetric:
+        keepTurning(fe, component, held, given, spin, present, centroid)
+    elif not nodes[:, 0].all():
+        warnOfOne('Nodes on the axis, x = 0, move along it only.', 'bodies', component)
     if added.message:
         warnOfOne(added.message, 'bodies', component)
     return component

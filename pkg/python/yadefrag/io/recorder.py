@@ -42,6 +42,7 @@ def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> 
     shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
     stress zz (Pa), strain (xx, yy, xy), with materials that yield plastic strain and temperature (K),
     with materials that fail damage, component and fragment (int). Removed fragments are left out.
+    With an axis of symmetry, triangles have 'axisymmetric', 1: x is the distance from the axis.
     Cohesive cracks are lines along their first side, with the values of the adjacent triangle, but 'damage' is the
     dissipated fraction of their fracture energy there (and 0 in triangles that cannot fail).
     fields  list of the names of fields to write, as above or as in plotMesh ('plasticStrain' is 'plastic
@@ -93,6 +94,8 @@ def _state(fe, fields):
                 points[name] = _spatial(values[nodes])
             else:
                 cells[name] = [values[numbers] for numbers in of]
+        if fe.axisymmetric:
+            cells['axisymmetric'] = [numpy.ones(len(numbers), numpy.int8) for numbers in of]
         if len(beside):
             ofTriangles = cells['damage'][0] if 'damage' in cells else numpy.zeros(len(triangles))
             cells['damage'] = [ofTriangles, damage]

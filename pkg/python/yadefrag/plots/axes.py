@@ -264,6 +264,11 @@ class CrackLines:
         self.damage = cracks['damage'][held]
         self.open = sides[~held].reshape(-1, 2, 2)  # both faces
 
+    def mirror(self) -> None:
+        """Adds those on the other side of x = 0."""
+        self.held, self.open = (numpy.concatenate([lines, lines * (-1, 1)]) for lines in (self.held, self.open))
+        self.damage = numpy.tile(self.damage, 2)
+
     def draw(self, ax: Axes) -> Any:
         """Draws all; returns the lines with a colour scale, None without any."""
         from matplotlib.colors import LinearSegmentedColormap, Normalize

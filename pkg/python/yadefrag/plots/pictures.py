@@ -26,7 +26,7 @@ _NO_VALUE = '.8'  # grey of triangles without a value
 def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | None = None, ax: Axes | None = None,
              limits: Sequence | None = None, *, fields: Sequence[str | ArrayLike | None] | None = None,
              xlim: ArrayLike | None = None, ylim: ArrayLike | None = None, spheres: bool = True,
-             rigidBodies: bool = True, scale: float = 1) -> Axes | list[Axes]:
+             rigidBodies: bool = True, scale: float = 1, mirror: bool = False) -> Axes | list[Axes]:
     """Draws the triangles of an FESolver at their present positions, without removed fragments; cracks
     that cohesion holds, coloured by their damage, and open ones black, above them; and YADE's spheres,
     walls, boxes and facets. Returns Matplotlib's axes.
@@ -51,6 +51,7 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
             colours. They widen the drawn region by at most half of the size of bodies and spheres
     scale   factor of the displacements from the stress-free shape in the drawn positions of nodes; 0
             draws that shape. Spheres and rigid bodies are drawn where they are
+    mirror  True: draws both sides of the axis of an axisymmetric solver
     ValueError for any other field or limits, and for a solver without bodies.
     """
     _requireBodies(fe)
@@ -59,8 +60,10 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
     limits = _limitsOfAll(limits, len(chosen)) if fields is not None else [_limits(limits)]
     window = _range('xlim', xlim), _range('ylim', ylim)
     scale = _scale(scale)
+    if flag('mirror', mirror) and not fe.axisymmetric:
+        refuse('mirror', mirror, 'False, since fe is not axisymmetric')
     with betweenSteps(fe):
-        pictures = [_Picture(fe, one, scale=scale) for one in chosen]
+        pictures = [_Picture(fe, one, scale=scale, mirror=mirror) for one in chosen]
         others = YadeBodies(*asked)
     if ax is not None:
         panels = [axesOf(ax)]
@@ -120,9 +123,10 @@ class _Picture:
 
     former  as in fragmentColours, which determines the colours
     scale   factor of the displacements
+    mirror  adds the other side of the axis
     """
 
-    def __init__(self, fe, field, former=None, scale=1):
+    def __init__(self, fe, field, former=None, scale=1, mirror=False):
         self.field = field = nameOf(field)
         values: Any
         perNode: bool | None
@@ -141,6 +145,14 @@ class _Picture:
             self.x, self.y = places[nodes].T
         self.perNode = perNode
         self.values = None if values is None else values[nodes if perNode else shown]
+        if mirror:
+            self._mirror()
+
+    def _mirror(self):
+        self.triangles = numpy.concatenate([self.triangles, self.triangles[:, ::-1] + len(self.x)])
+        self.x, self.y = numpy.concatenate([self.x, -self.x]), numpy.tile(self.y, 2)
+        self.values = None if self.values is None else numpy.tile(self.values, 2)
+        self.cracks.mirror()
 
     def box(self):
         """(low, high) of the nodes, each (2) in m."""
