@@ -11,10 +11,10 @@ import numpy
 from yade import wrapper
 from yadefrag.arguments import (ArrayLike, FESolver, Nodes, array, flag, number, positive, refuse, requireTakes,
                                 shown, whole)
-from yadefrag.fe.contents import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
+from yadefrag.fe.contents import betweenSteps, calledInStep, requireBetweenSteps
 from yadefrag.fe.motions import chosenNodes, tableOrNumber
 from yadefrag.messages import warn
-from yadefrag.scene.lifecycle import runPart, wholeSteps
+from yadefrag.scene.lifecycle import requireNoStep, runPart, wholeSteps
 
 _LOOK = 25  # steps from one evaluation of the motion to the next
 _DAMPING = .4  # of NewtonIntegrator, while spheres come to rest

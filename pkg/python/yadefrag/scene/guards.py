@@ -1,5 +1,5 @@
 """What scripts must not do, each refused with one sentence: attributes of the new classes, also those of YADE's base
-classes, with values of a wrong type (numbers of NumPy are accepted); operations on single pieces of FESolver's bodies.
+classes, with values of a wrong type (numbers of NumPy are accepted); pieces of FESolver's bodies in clumps.
 """
 
 import difflib
@@ -12,9 +12,7 @@ import numpy
 
 from yade import wrapper
 from yade.minieigenHP import Vector3
-from yadefrag.arguments import flag, isWhole, numbersOf, plain, refuse, shown
-from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
-from yadefrag.messages import checkedCall
+from yadefrag.arguments import isWhole, numbersOf, plain, refuse, shown
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
@@ -165,39 +163,3 @@ def _guard(name):
 def guardBodies() -> None:
     for name in ('clump', 'addToClump'):
         _guard(name)
-
-
-# --- FESolver
-
-def _guardCopy(reduce):
-    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none of them."""
-    def guarded(self, protocol):
-        if len(self.masses) > 0:
-            raise TypeError('an FESolver with bodies cannot be copied or pickled, since its '
-                            'bodies belong to the scene; O.save keeps them, or create a new one.')
-        return reduce(self, protocol)
-
-    return guarded
-
-
-def guardSolver() -> None:
-    """Sentences for wrong arguments of methods that are written in C++."""
-    solver = wrapper.FESolver
-    remove, fragments = solver.removeBody, solver.fragments
-
-    @functools.wraps(remove)
-    def removeBody(self, component):
-        requireBetweenSteps()
-        return remove(self, bodyNumber(self, component))
-
-    @functools.wraps(fragments)
-    def guardedFragments(self, held=True):
-        return fragments(self, flag('held', held))
-
-    def alone(method):
-        return functools.wraps(method)(lambda self: method(self))
-
-    guardedFragments.__qualname__ = 'FESolver.fragments'
-    for method in (removeBody, guardedFragments, alone(solver.deepestOverlap), alone(solver.criticalTimeStep)):
-        setattr(solver, method.__name__, checkedCall(method))
-    solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)

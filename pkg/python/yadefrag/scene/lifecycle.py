@@ -20,7 +20,6 @@ from typing import Any
 from yade import wrapper
 from yadefrag import _yadefrag, messages
 from yadefrag.arguments import shown, shownPath, whole
-from yadefrag.fe.contents import requireNoStep
 from yadefrag.files import keptAside, requireWritable
 from yadefrag.scene import scene_check
 
@@ -238,6 +237,13 @@ def install() -> None:
     atexit.register(_yadefrag.stopRun)
 
 
+def requireNoStep(what: str) -> None:
+    """A run within a step would wait for the end of that step, which waits for the run: RuntimeError."""
+    if _yadefrag.isInStep():
+        raise RuntimeError('%s runs the scene: it cannot be called within a step, as from a PyRunner.' % what)
+    _yadefrag.requirePaused()
+
+
 def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | None = None) -> int:
     """Runs `steps` steps of the scene; returns the number of steps done.
 
@@ -245,7 +251,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
     On a terminal a bar shows steps, simulated time and remaining time. Ctrl-C stops after a whole step
     and raises KeyboardInterrupt, so that it ends a script with a loop of runs, too, also one in a
     thread; O.pause() from a PyRunner stops as well, without an exception. The scene is left in that
-    state, and the run can be continued. RuntimeError if an engine stopped the run, with the message of
+    state, and the run can be continued. O.resetTime() in a step counts anew, as in O.run(). RuntimeError if an engine stopped the run, with the message of
     FESolver; messages of other engines are written by YADE.
     """
     steps = whole('steps', steps, most=MOST_STEPS)
