@@ -66,7 +66,6 @@ def _renewDispatchers():
 
 solver.install()
 guards.guardBodies()
-guards.guardSolver()
 lifecycle.install()
 mpy.install()
 installColliders([name for name in __all__ if name.endswith('Collider')])

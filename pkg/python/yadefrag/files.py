@@ -43,6 +43,33 @@ def replacing(name: str) -> Iterator[str]:
                 os.remove(part)
 
 
+@contextlib.contextmanager
+def keptAside(name: str) -> Iterator[None]:
+    """For `with`: the block writes the file `name` itself.
+
+    After an exception the former file is there again. Meanwhile it is beside the new one, with `.part.` in its name:
+    also after the end of a process that was killed. A device or a pipe is left as it is, and a symbolic link is kept.
+    """
+    target, former = os.path.realpath(name), None
+    if os.path.exists(target):
+        if not os.path.isfile(target):
+            yield
+            return
+        former = _newBeside(target)
+        os.replace(target, former)
+    try:
+        yield
+        if former:
+            shutil.copymode(former, target)
+            with open(target, 'rb') as written:
+                os.fsync(written.fileno())
+            os.remove(former)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.replace(former, target) if former else os.remove(target)
+        raise
+
+
 def requireWritable(name: str) -> None:
     """OSError that names `name` if it cannot be written; no file is left over."""
     with _named(name):

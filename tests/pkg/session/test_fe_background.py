@@ -181,14 +181,9 @@ def test_pauseEndsTheRun(at, folder):
     assert yadefrag.runSteps(20, every=1, call=lambda: called.append(O.iter)) == at == len(called)
 
 
-@pytest.mark.parametrize('at', [1, 4, 7])
-def test_resetTimeIsNoEnd(at):
+def test_resetTimeIsNoEnd():
     brittleImpact()
-    O.engines = O.engines + [w.PyRunner(command='O.resetTime()', iterPeriod=at, initRun=False)]
-    O.step()
-    assert yadefrag.runSteps(20) == 20
-    assert yadefrag.runSteps(3, every=1, call=O.resetTime) == 3
-    assert O.iter < 20
+    assert yadefrag.runSteps(3, every=1, call=O.resetTime) == 3 and O.iter == 0
 
 
 def test_pauseEndsTheFilm(folder):

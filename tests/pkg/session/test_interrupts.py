@@ -35,7 +35,7 @@ def waiting():
     O.wait()
 
 
-RUNS = dict(short=lambda fe: runSteps(10), long=lambda fe: runSteps(10**9), step=lambda fe: O.step(),
+RUNS = dict(short=lambda fe: runSteps(10), long=lambda fe: runSteps(10**9),
             called=lambda fe: runSteps(10, every=3, call=lambda: None), waits=lambda fe: waiting(),
             run=lambda fe: O.run(10, True), longRun=lambda fe: O.run(10**9, True),
             relax=lambda fe: fe.relax(1e-300, most=40), longRelax=lambda fe: fe.relax(1e-300))
@@ -78,20 +78,6 @@ def test_oneEndsALoopOfRuns(name, where, fe):
             thread.join(60)
         assert len(told) == k + 1
         checkAtRest()
-
-
-def test_aRunnerIsNotInterrupted(fe):
-    """Not in the middle of its command, which would end the step by an error."""
-    done = []
-    builtins.slowly = lambda: done.append(time.sleep(.3))
-    O.engines = O.engines + [w.PyRunner(command='slowly()', iterPeriod=1, initRun=True)]
-    try:
-        interruptAfter(.1)
-        with pytest.raises(KeyboardInterrupt):
-            O.step()
-    finally:
-        del builtins.slowly
-    assert len(done) == O.iter == 1
 
 
 def test_messageCountsSteps(fe, capsys):

@@ -1,5 +1,5 @@
 """Contents of an FESolver: its bodies, by number or by name, and for pictures and files everything except removed
-fragments; what is done between two steps only: reads of one state, changes, runs.
+fragments; what is done between two steps only: reads of one state, and changes.
 
 Functions of a script that FESolver calls within its step must not do any of these.
 """
@@ -37,13 +37,6 @@ def requireBetweenSteps() -> None:
     if getattr(_calls, 'now', False):
         raise RuntimeError('bodies, bonds, motions and loads of FESolver change between steps only, not in a '
                            'function that was given to prescribe or pressure; do it in a PyRunner.')
-    _yadefrag.requirePaused()
-
-
-def requireNoStep(what: str) -> None:
-    """A run within a step would wait for the end of that step, which waits for the run: RuntimeError."""
-    if _yadefrag.isInStep():
-        raise RuntimeError('%s runs the scene: it cannot be called within a step, as from a PyRunner.' % what)
     _yadefrag.requirePaused()
 
 

@@ -11,10 +11,10 @@ import numpy
 from yade import wrapper
 from yadefrag.arguments import (ArrayLike, FESolver, Nodes, array, flag, number, positive, refuse, requireTakes,
                                 shown, whole)
-from yadefrag.fe.contents import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
+from yadefrag.fe.contents import betweenSteps, calledInStep, requireBetweenSteps
 from yadefrag.fe.motions import chosenNodes, tableOrNumber
 from yadefrag.messages import warn
-from yadefrag.scene.lifecycle import runPart, stepsDone, wholeSteps
+from yadefrag.scene.lifecycle import requireNoStep, runPart, wholeSteps
 
 _LOOK = 25  # steps from one evaluation of the motion to the next
 _DAMPING = .4  # of NewtonIntegrator, while spheres come to rest
@@ -105,7 +105,7 @@ def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
     tolerance = positive('tolerance', tolerance, 'a ratio of energies')
     most = whole('most', most)
     requireNoStep('relax')
-    before, begin = self.damping, stepsDone()
+    before, begin = self.damping, wrapper.Omega().iter
     movers = [(one, one.damping) for one in wrapper.Omega().engines if isinstance(one, wrapper.NewtonIntegrator)]
     try:
         if _areSpheres(_freeBodies()):
@@ -114,13 +114,13 @@ def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
         with wholeSteps():
             calm, ratio = _damped(self, tolerance, most)
     except KeyboardInterrupt:
-        print('relax: stopped after %d steps.' % (stepsDone() - begin), file=sys.stderr)
+        print('relax: stopped after %d steps.' % (wrapper.Omega().iter - begin), file=sys.stderr)
         raise
     finally:
         self.damping = before
         for mover, damping in movers:
             mover.damping = damping
-    done = stepsDone() - begin
+    done = wrapper.Omega().iter - begin
     if calm < 2:
         warn('relax: after %d steps the kinetic energy is still %.3g of the elastic energy%s.' %
              (done, ratio, ', with that of %d bodies of YADE' % len(_freeBodies()) if _freeBodies() else ''))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 import math
 from collections.abc import Iterable, Sequence
@@ -16,12 +17,12 @@ from yadefrag.arguments import (ArrayLike, ByPlace, FESolver, array, flag, listO
                                 refuse, requireTakes, whole)
 from yadefrag.fe.geometry import holesOf, rectangle, simplified
 from yadefrag.fe.mesh_values import isClockwise, isField, mayCrack, smoothFlags, smoothNodes
-from yadefrag.io.mesh_files import MeshFile, requireApart
 from yadefrag.messages import checkedCall, warn
 
 _fill = Mesh.__init__  # from checked arrays
 _SPACING = .2  # of the size: nearer vertices of the neighbours give one vertex
 _JOINTS = .1   # of the size: default tolerance of joints
+_BESIDE = 1e-3  # of an element's height: where points beside its side are examined
 _LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
 
 # Arguments of polygonMesh and addPolygon.
@@ -57,7 +58,7 @@ def _init(self, nodes, triangles):
         raise ValueError('triangles has node numbers from %d to %d, but there are %d nodes.' %
                          (corners.min(), corners.max(), len(points)))
     loops = _boundaryLoops(points, corners)
-    requireApart(points, corners, loops)
+    _requireApart(points, corners, loops)
     _fill(self, points, corners, loops)
 
 
@@ -100,6 +101,45 @@ def _boundaryLoops(points, triangles):
     return loops
 
 
+def _requireApart(points, triangles, loops):
+    """ValueError if parts of a mesh without common nodes overlap. Contact would not see that."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    if sum((points[loop] * _rightOf(points[numpy.roll(loop, -1)])).sum() > 0 for loop in loops) < 2:
+        return  # loops around material are counter-clockwise
+    starts = numpy.concatenate(loops)
+    ends = numpy.concatenate([numpy.roll(loop, -1) for loop in loops])
+    along = points[ends] - points[starts]
+    sides = (triangles * len(points) + numpy.roll(triangles, -1, axis=1)).astype(numpy.int64).T.ravel()
+    known = numpy.argsort(sides)
+    own = known[numpy.searchsorted(sides, starts * len(points) + ends, sorter=known)] % len(triangles)
+    squares = numpy.maximum((along**2).sum(axis=1), 1e-300)
+    heights = cross(b - a, c - a)[own] / squares  # of the triangles, in lengths of their sides
+    low, high = numpy.minimum(numpy.minimum(a, b), c), numpy.maximum(numpy.maximum(a, b), c)
+    order = numpy.argsort(low[:, 0])
+    left, widest = low[order, 0], (high - low)[:, 0].max()
+    for part in (.02, .5, .98):
+        inside = points[starts] + part * along - _BESIDE * heights[:, None] * _rightOf(along)
+        first = numpy.searchsorted(left, inside[:, 0] - widest)
+        last = numpy.searchsorted(left, inside[:, 0], side='right')
+        for place, mine, i, j in zip(inside, own, first, last):
+            near = order[i:j]
+            near = near[((low[near] <= place) & (place <= high[near])).all(axis=1) & (near != mine)]
+            arms = [place - corner[near] for corner in (a, b, c)]
+            isIn = [cross(to[near] - at[near], arm) >= 0 for at, to, arm in zip((a, b, c), (b, c, a), arms)]
+            if numpy.all(isIn, axis=0).any():
+                raise ValueError('two parts of the mesh, without common nodes, overlap at (%g, %g) m; they may '
+                                 'touch, but not overlap.' % tuple(place))
+
+
+def _rightOf(vectors):
+    return numpy.stack([vectors[:, 1], -vectors[:, 0]], axis=1)
+
+
+def cross(a: numpy.ndarray, b: numpy.ndarray) -> numpy.ndarray:
+    """(n) z of the products of vectors (n, 2)."""
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
 def _repr(self):
     return 'Mesh of %d nodes and %d triangles, boundary loops of %s nodes%s' % (
         len(self.nodes), len(self.triangles), ', '.join(str(len(loop)) for loop in self.loops),
@@ -134,10 +174,54 @@ It is also the pair of both: `nodes, triangles = mesh`. It can be pickled.
 """
 
 
+@dataclasses.dataclass
+class MeshFile:
+    """Result of readMesh: `fe.addTriangles(mesh.nodes, mesh.triangles, material=mesh.material)`.
+
+    nodes      (n, 2) in m, those used by triangles
+    triangles  (m, 3) numbers of nodes, counter-clockwise
+    groups     {name: numbers of triangles}: physical groups of gmsh, sets of elements of other formats
+    nodeSets   {name: numbers of nodes}: those of groups of lines, points and triangles, and sets of
+               points. In a solver the nodes are `fe.nodesOf(body)[mesh.nodeSets['left']]`. If a line
+               or point and a surface of gmsh have one name, the set has the nodes of the line or point
+    instances  {name: numbers of triangles}: instances of Abaqus' parts; the set 'left' of the instance
+               'P-1' is nodeSets['P-1.left']
+    leftOut    list of sentences about what of the file is not in this mesh
+    """
+
+    nodes: numpy.ndarray
+    triangles: numpy.ndarray
+    groups: dict
+    nodeSets: dict
+    instances: dict = dataclasses.field(default_factory=dict)
+    leftOut: list = dataclasses.field(default_factory=list)
+
+    @property
+    def material(self) -> tuple[list[str], numpy.ndarray]:
+        """(names, (m) numbers among them): addTriangles' `material`, if O.materials has a material
+        with the label of each group. ValueError if a triangle is in no group, or in two; groups that
+        are no materials can be deleted before: `del mesh.groups['all']`."""
+        names = list(self.groups)
+        count = numpy.zeros(len(self.triangles), dtype=int)
+        of = numpy.zeros(len(self.triangles), dtype=int)
+        for number, name in enumerate(names):
+            count[self.groups[name]] += 1
+            of[self.groups[name]] = number
+        if not (count == 1).all():
+            bad = int(numpy.argmax(count != 1))
+            its = [name for name in names if bad in self.groups[name]]
+            raise ValueError('triangle %d is in %d groups of the mesh%s, it must be in one to have a '
+                             'material%s.' %
+                             (bad, count[bad], ' (%s)' % ', '.join(map(repr, its)) if its else '',
+                              '; `del mesh.groups[%r]` removes one that is no material' % its[-1] if its else
+                              ': give addTriangles the label of a material instead'))
+        return names, of
+
+
 def asMesh(mesh: Any) -> Mesh:
     """A Mesh from addMesh's `mesh`; of a given one the nodes, which may have been moved, are checked."""
     if isinstance(mesh, Mesh):
-        requireApart(pointsOf("the mesh's nodes", mesh.nodes, 3), mesh.triangles, mesh.loops)
+        _requireApart(pointsOf("the mesh's nodes", mesh.nodes, 3), mesh.triangles, mesh.loops)
         return mesh
     parts = (mesh.nodes, mesh.triangles) if isinstance(mesh, MeshFile) else mesh
     try:

@@ -6,6 +6,7 @@ was given and what is valid.
 
 from __future__ import annotations
 
+import functools
 import inspect
 import math
 from collections.abc import Iterable, Sequence
@@ -15,15 +16,15 @@ import numpy
 
 from yade import wrapper
 from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, flag, number, positive, real, refuse
-from yadefrag.fe.contents import betweenSteps, componentOf, newName, nodesOf, requireBetweenSteps, shownTriangles
+from yadefrag.fe.contents import (betweenSteps, bodyNumber, componentOf, newName, nodesOf, requireBetweenSteps,
+                                  shownTriangles)
 from yadefrag.fe.fields import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
 from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
-from yadefrag.fe.mesh import Mesh, Meshing, asMesh, withArguments
+from yadefrag.fe.mesh import Mesh, MeshFile, Meshing, asMesh, withArguments
 from yadefrag.fe.mesh_values import (Materials, brittlePlaces, field, heldNodes, interfaces, isField, oneMaterial,
                                      smoothNodes, stressOfTriangles)
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.neighbours import Overlap, addSnapped, bond, bondAll, snapTolerance, tellCostly, tellJoined
-from yadefrag.io.mesh_files import MeshFile
 from yadefrag.messages import forget, checkedCall, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
@@ -276,6 +277,40 @@ def _minAngle(self):
     return float(numpy.arctan2(abs(crosses), (after * before).sum(axis=2)).min())
 
 
+def _guardCopy(reduce):
+    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none of them."""
+    def guarded(self, protocol):
+        if len(self.masses) > 0:
+            raise TypeError('an FESolver with bodies cannot be copied or pickled, since its '
+                            'bodies belong to the scene; O.save keeps them, or create a new one.')
+        return reduce(self, protocol)
+
+    return guarded
+
+
+def _guard():
+    """Sentences for wrong arguments of methods that are written in C++."""
+    solver = wrapper.FESolver
+    remove, fragments = solver.removeBody, solver.fragments
+
+    @functools.wraps(remove)
+    def removeBody(self, component):
+        requireBetweenSteps()
+        return remove(self, bodyNumber(self, component))
+
+    @functools.wraps(fragments)
+    def guardedFragments(self, held=True):
+        return fragments(self, flag('held', held))
+
+    def alone(method):
+        return functools.wraps(method)(lambda self: method(self))
+
+    guardedFragments.__qualname__ = 'FESolver.fragments'
+    for method in (removeBody, guardedFragments, alone(solver.deepestOverlap), alone(solver.criticalTimeStep)):
+        setattr(solver, method.__name__, checkedCall(method))
+    solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)
+
+
 def install() -> None:
     """Adds the methods to FESolver."""
     wrapper.FESolver.addPolygon = checkedCall(addPolygon, _arrangedPolygon)
@@ -286,3 +321,4 @@ def install() -> None:
                        ('energy', energy)):
         setattr(wrapper.FESolver, name, property(read, doc=read.__doc__))
     wrapper.FESolver.loads = property(getLoads, setLoads, doc=getLoads.__doc__)
+    _guard()

@@ -1,6 +1,7 @@
 """Files of other programs: outlines and meshes that are read, bodies and records that are written."""
 
-from yadefrag.io.mesh_files import MeshFile, readMesh
+from yadefrag.fe.mesh import MeshFile
+from yadefrag.io.mesh_files import readMesh
 from yadefrag.io.outlines import outlineReport, readOutline, readPolygon
 from yadefrag.io.recorder import FERecorder, exportVTK
 

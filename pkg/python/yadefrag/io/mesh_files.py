@@ -1,62 +1,17 @@
 """Meshes from files of other programs, for FESolver.addTriangles; elements that are no proper ones are named."""
 
-import dataclasses
 import os
 
 import numpy
 
 from yadefrag.arguments import File, path, positive, shownPath
+from yadefrag.fe.mesh import MeshFile, cross
 from yadefrag.io.readers import Elements, abaqus, cornersOf, counted, gmsh, orderOf, refuseFile
 from yadefrag.messages import warn
 
 _READERS = {'.msh': gmsh.read, '.inp': abaqus.read}
-FLAT = 1e-9  # of the longest distance of two corners: points nearer to a line or plane are on it
-_BESIDE = 1e-3  # of an element's height: where points beside its side are examined
+_FLAT = 1e-9  # of the longest distance of two corners: points nearer to a line or plane are on it
 _REMEDY = 'Correct it in the program that wrote the file.'
-
-
-@dataclasses.dataclass
-class MeshFile:
-    """Result of readMesh: `fe.addTriangles(mesh.nodes, mesh.triangles, material=mesh.material)`.
-
-    nodes      (n, 2) in m, those used by triangles
-    triangles  (m, 3) numbers of nodes, counter-clockwise
-    groups     {name: numbers of triangles}: physical groups of gmsh, sets of elements of other formats
-    nodeSets   {name: numbers of nodes}: those of groups of lines, points and triangles, and sets of
-               points. In a solver the nodes are `fe.nodesOf(body)[mesh.nodeSets['left']]`. If a line
-               or point and a surface of gmsh have one name, the set has the nodes of the line or point
-    instances  {name: numbers of triangles}: instances of Abaqus' parts; the set 'left' of the instance
-               'P-1' is nodeSets['P-1.left']
-    leftOut    list of sentences about what of the file is not in this mesh
-    """
-
-    nodes: numpy.ndarray
-    triangles: numpy.ndarray
-    groups: dict
-    nodeSets: dict
-    instances: dict = dataclasses.field(default_factory=dict)
-    leftOut: list = dataclasses.field(default_factory=list)
-
-    @property
-    def material(self) -> tuple[list[str], numpy.ndarray]:
-        """(names, (m) numbers among them): addTriangles' `material`, if O.materials has a material
-        with the label of each group. ValueError if a triangle is in no group, or in two; groups that
-        are no materials can be deleted before: `del mesh.groups['all']`."""
-        names = list(self.groups)
-        count = numpy.zeros(len(self.triangles), dtype=int)
-        of = numpy.zeros(len(self.triangles), dtype=int)
-        for number, name in enumerate(names):
-            count[self.groups[name]] += 1
-            of[self.groups[name]] = number
-        if not (count == 1).all():
-            bad = int(numpy.argmax(count != 1))
-            its = [name for name in names if bad in self.groups[name]]
-            raise ValueError('triangle %d is in %d groups of the mesh%s, it must be in one to have a '
-                             'material%s.' %
-                             (bad, count[bad], ' (%s)' % ', '.join(map(repr, its)) if its else '',
-                              '; `del mesh.groups[%r]` removes one that is no material' % its[-1] if its else
-                              ': give addTriangles the label of a material instead'))
-        return names, of
 
 
 def readMesh(file: File, scale: float = 1) -> MeshFile:
@@ -104,7 +59,7 @@ def _plane(points, used, name):
     if points.ndim != 2 or points.shape[1] not in (2, 3) or not numpy.isfinite(points[used]).all():
         raise ValueError('%s has points that are not finite, or none.' % shownPath(name))
     low, high = points[used].min(axis=0), points[used].max(axis=0)
-    if points.shape[1] == 3 and high[2] - low[2] > FLAT * (high - low)[:2].max():
+    if points.shape[1] == 3 and high[2] - low[2] > _FLAT * (high - low)[:2].max():
         raise ValueError('%s is no plane mesh: z goes from %g to %g, it must be the same '
                          'everywhere.' % (shownPath(name), low[2], high[2]))
     return points[:, :2]
@@ -218,7 +173,7 @@ class _Mesh:
             length = numpy.maximum(numpy.linalg.norm(b - a, axis=1), 1e-300)
             for k in range(between):
                 arm = places[:, count + side * between + k] - a
-                most = numpy.maximum(most, numpy.abs(_cross(arm, b - a)) / length)
+                most = numpy.maximum(most, numpy.abs(cross(arm, b - a)) / length)
         size = numpy.linalg.norm(places[:, 0] - places[:, 1], axis=1).max()
         isCurved = most > 1e-6 * size
         if isCurved.any():
@@ -253,11 +208,11 @@ class _Mesh:
         first = numpy.linalg.norm(p[:, 2] - p[:, 0], axis=1)
         second = numpy.linalg.norm(p[:, 3] - p[:, 1], axis=1)
         sides = numpy.roll(p, -1, axis=1) - p
-        turns = numpy.stack([_cross(sides[:, i - 1], sides[:, i]) for i in range(4)], axis=1)
+        turns = numpy.stack([cross(sides[:, i - 1], sides[:, i]) for i in range(4)], axis=1)
         lengths = numpy.linalg.norm(sides, axis=2)
         longest = numpy.maximum(numpy.maximum(first, second), lengths.max(axis=1))
-        isShort = (lengths <= FLAT * longest[:, None]).any(axis=1)
-        isStraight = numpy.abs(turns) <= FLAT * longest[:, None]**2
+        isShort = (lengths <= _FLAT * longest[:, None]).any(axis=1)
+        isStraight = numpy.abs(turns) <= _FLAT * longest[:, None]**2
         signs = numpy.where(isStraight, 0, numpy.sign(turns))
         isFlat = (signs == 0).sum(axis=1) > 1
         if (isShort | isFlat).any():
@@ -280,7 +235,7 @@ class _Mesh:
     def requireAreas(self, triangles, source):
         a, b, c = self._points[triangles].transpose(1, 0, 2)
         longest = numpy.max([numpy.linalg.norm(side, axis=1) for side in (b - a, c - b, a - c)], axis=0)
-        bad = numpy.nonzero(numpy.abs(_cross(b - a, c - a)) <= FLAT * longest**2)[0]
+        bad = numpy.nonzero(numpy.abs(cross(b - a, c - a)) <= _FLAT * longest**2)[0]
         if len(bad):
             places = ', '.join(self._at(node) for node in triangles[bad[0]])
             self._refuse(source[bad], 'is flat: its corners %s are on a line' % places)
@@ -289,7 +244,7 @@ class _Mesh:
         """Makes all counter-clockwise. Two such triangles with the same side in the same direction are on one
         side of it, and overlap."""
         a, b, c = self._points[triangles].transpose(1, 0, 2)
-        isClockwise = _cross(b - a, c - a) < 0
+        isClockwise = cross(b - a, c - a) < 0
         triangles[isClockwise] = triangles[isClockwise][:, ::-1]
         starts, ends = triangles.ravel(), numpy.roll(triangles, -1, axis=1).ravel()
         _, first, which = numpy.unique(starts * len(self._points) + ends, return_index=True, return_inverse=True)
@@ -304,41 +259,3 @@ class _Mesh:
             other, one = (other, one) if isRare[other] else (one, other)
         self._refuse([source[other]], '%s element %s, on the same side of their common side from %s to %s' %
                      (cause, self._labels[source[one]], self._at(starts[twice[0]]), self._at(ends[twice[0]])))
-
-
-def requireApart(points: numpy.ndarray, triangles: numpy.ndarray, loops: list[numpy.ndarray]) -> None:
-    """ValueError if parts of a mesh without common nodes overlap. Contact would not see that."""
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    if sum((points[loop] * _rightOf(points[numpy.roll(loop, -1)])).sum() > 0 for loop in loops) < 2:
-        return  # loops around material are counter-clockwise
-    starts = numpy.concatenate(loops)
-    ends = numpy.concatenate([numpy.roll(loop, -1) for loop in loops])
-    along = points[ends] - points[starts]
-    sides = (triangles * len(points) + numpy.roll(triangles, -1, axis=1)).astype(numpy.int64).T.ravel()
-    known = numpy.argsort(sides)
-    own = known[numpy.searchsorted(sides, starts * len(points) + ends, sorter=known)] % len(triangles)
-    squares = numpy.maximum((along**2).sum(axis=1), 1e-300)
-    heights = _cross(b - a, c - a)[own] / squares  # of the triangles, in lengths of their sides
-    low, high = numpy.minimum(numpy.minimum(a, b), c), numpy.maximum(numpy.maximum(a, b), c)
-    order = numpy.argsort(low[:, 0])
-    left, widest = low[order, 0], (high - low)[:, 0].max()
-    for part in (.02, .5, .98):
-        inside = points[starts] + part * along - _BESIDE * heights[:, None] * _rightOf(along)
-        first = numpy.searchsorted(left, inside[:, 0] - widest)
-        last = numpy.searchsorted(left, inside[:, 0], side='right')
-        for place, mine, i, j in zip(inside, own, first, last):
-            near = order[i:j]
-            near = near[((low[near] <= place) & (place <= high[near])).all(axis=1) & (near != mine)]
-            arms = [place - corner[near] for corner in (a, b, c)]
-            isIn = [_cross(to[near] - at[near], arm) >= 0 for at, to, arm in zip((a, b, c), (b, c, a), arms)]
-            if numpy.all(isIn, axis=0).any():
-                raise ValueError('two parts of the mesh, without common nodes, overlap at (%g, %g) m; they may '
-                                 'touch, but not overlap.' % tuple(place))
-
-
-def _rightOf(vectors):
-    return numpy.stack([vectors[:, 1], -vectors[:, 0]], axis=1)
-
-
-def _cross(a, b):
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

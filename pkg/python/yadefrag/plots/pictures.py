@@ -10,12 +10,12 @@ import numpy
 
 from yade.wrapper import Omega
 from yadefrag.arguments import ArrayLike, FESolver, File, flag, number, numbersOf, path, refuse, whole
-from yadefrag.fe.contents import betweenSteps, requireNoStep, requireSolver, shownMesh
+from yadefrag.fe.contents import betweenSteps, requireSolver, shownMesh
 from yadefrag.fe.fields import FIELDS, fieldValues, nameOf
 from yadefrag.files import replacing, requireWritable, savePicture
 from yadefrag.plots.axes import (MOST_PANELS, CrackLines, YadeBodies, axesOf, barSettings, damageBar, fragmentColours,
                                  newFigure, newPanels, palette, panelSize)
-from yadefrag.scene.lifecycle import runPart
+from yadefrag.scene.lifecycle import requireNoStep, runPart
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -1,21 +1,18 @@
 """What scripts must not do, each refused with one sentence: attributes of the new classes, also those of YADE's base
-classes, with values of a wrong type (numbers of NumPy are accepted); operations on single pieces of FESolver's bodies.
+classes, with values of a wrong type (numbers of NumPy are accepted); pieces of FESolver's bodies in clumps.
 """
 
 import difflib
 import functools
 import numbers
 import warnings
-from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy
 
 from yade import wrapper
 from yade.minieigenHP import Vector3
-from yadefrag.arguments import flag, isWhole, numbersOf, plain, refuse, shown
-from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
-from yadefrag.messages import checkedCall
+from yadefrag.arguments import isWhole, numbersOf, plain, refuse, shown
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
@@ -145,92 +142,24 @@ def _right(present, wrong):
 
 # --- bodies
 
-def _pieceOf(body):
-    """The shape of a body that is part of a boundary; None for any other."""
-    shape = body.shape if body else None
-    return shape if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0 else None
-
-
-def _refuse(id, piece, words):
-    raise ValueError('body #%d is part of the boundary of body %d of FESolver%s.' %
-                     (id, piece.component, words.replace('{}', '%d' % piece.component)))
-
-
-def _guard(name: str, idsOf: Callable[..., Iterable], words: str = ', it cannot be in a clump') -> None:
-    """A method of O.bodies that refuses pieces of a boundary: YADE would end the process, or the boundary would have
-    a hole.
-
-    idsOf  function of the method's arguments → numbers of bodies
-    """
+def _guard(name):
+    """A method of O.bodies that refuses pieces of a boundary as members of a clump: YADE would end the process for
+    clumps without mass, and add forces on the piece to those on the clump."""
     method = getattr(wrapper.BodyContainer, name)
 
     @functools.wraps(method)
-    def guarded(self, *arguments, **settings):
-        arguments = [list(one) if hasattr(one, '__iter__') else one for one in arguments]  # any sequence, once
-        for id in idsOf(*arguments, **settings):
+    def guarded(self, ids, *others, **settings):
+        ids = list(ids) if hasattr(ids, '__iter__') else ids  # any sequence, once
+        for id in ids if isinstance(ids, list) else ():  # no list: YADE raises the exception
             isPlace = isinstance(id, numbers.Integral) and 0 <= int(id) < len(self)
-            piece = _pieceOf(self[int(id)]) if isPlace else None
-            if piece:
-                _refuse(id, piece, words)
-        return method(self, *arguments, **settings)
+            shape = getattr(self[int(id)], 'shape', None) if isPlace else None
+            if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0:
+                raise ValueError('body #%d is part of the boundary of body %d of FESolver, it cannot be in a clump.' %
+                                 (id, shape.component))
+        return method(self, ids, *others, **settings)
     setattr(wrapper.BodyContainer, name, guarded)
 
 
-def _guardPart(name):
-    """Body.state or Body.shape of a piece must not be replaced: other engines would end the process."""
-    part = getattr(wrapper.Body, name)
-
-    def guarded(self, value):
-        piece = _pieceOf(self)
-        if piece:
-            _refuse(self.id, piece, ': a script must not replace its %s' % name)
-        part.fset(self, value)
-    setattr(wrapper.Body, name, property(part.fget, guarded, doc=part.__doc__))
-
-
 def guardBodies() -> None:
-    _guard('erase', lambda id, *_, **__: [id], ', it cannot be erased alone; FESolver.removeBody({}) removes the whole '
-           'body')
-    _guard('insertAtId', lambda body, id: [id], ', another one cannot replace it')
     for name in ('clump', 'addToClump'):
-        _guard(name, lambda ids, *_, **__: ids if isinstance(ids, list) else ())  # no list: YADE raises the exception
-    for name in ('deleteClumpMember', 'deleteClumpBody'):
-        _guard(name, lambda *bodies: [one.id for one in bodies if isinstance(one, wrapper.Body)])
-    for name in ('state', 'shape'):
-        _guardPart(name)
-
-
-# --- FESolver
-
-def _guardCopy(reduce):
-    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none of them."""
-    def guarded(self, protocol):
-        if len(self.masses) > 0:
-            raise TypeError('an FESolver with bodies cannot be copied or pickled, since its '
-                            'bodies belong to the scene; O.save keeps them, or create a new one.')
-        return reduce(self, protocol)
-
-    return guarded
-
-
-def guardSolver() -> None:
-    """Sentences for wrong arguments of methods that are written in C++."""
-    solver = wrapper.FESolver
-    remove, fragments = solver.removeBody, solver.fragments
-
-    @functools.wraps(remove)
-    def removeBody(self, component):
-        requireBetweenSteps()
-        return remove(self, bodyNumber(self, component))
-
-    @functools.wraps(fragments)
-    def guardedFragments(self, held=True):
-        return fragments(self, flag('held', held))
-
-    def alone(method):
-        return functools.wraps(method)(lambda self: method(self))
-
-    guardedFragments.__qualname__ = 'FESolver.fragments'
-    for method in (removeBody, guardedFragments, alone(solver.deepestOverlap), alone(solver.criticalTimeStep)):
-        setattr(solver, method.__name__, checkedCall(method))
-    solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)
+        _guard(name)

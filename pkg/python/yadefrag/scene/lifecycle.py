@@ -6,9 +6,9 @@ lose it, and in no other thread. Within `wholeSteps` it is counted only: the run
 thread that waits for it raises KeyboardInterrupt."""
 
 import atexit
+import concurrent.futures
 import contextlib
 import functools
-import os
 import signal
 import sys
 import threading
@@ -20,22 +20,15 @@ from typing import Any
 from yade import wrapper
 from yadefrag import _yadefrag, messages
 from yadefrag.arguments import shown, shownPath, whole
-from yadefrag.fe.contents import requireNoStep
-from yadefrag.files import replacing, requireWritable
+from yadefrag.files import keptAside, requireWritable
 from yadefrag.scene import scene_check
 
 _LOOK = .05  # s, from one check for Ctrl-C to the next
 _saving = threading.RLock()  # held while a run rests for a save
-_count = SimpleNamespace(pauses=0, stepsBefore=0, interrupts=0)
+_count = SimpleNamespace(pauses=0, interrupts=0)
 _LOGGERS = ('ThreadRunner', 'yadeWrapper.cpp')  # YADE's lines about an error of a step
 _refusals = SimpleNamespace(waiting=0, levels={})  # runs that a script waits for; {logger: its level before}
-_saved = SimpleNamespace(part='', name='')  # of the last save: the file that YADE has written, its name afterwards
 MOST_STEPS = 2**62  # the largest number that YADE can count
-
-
-def stepsDone() -> int:
-    """Steps so far: O.iter, corrected for O.resetTime()."""
-    return wrapper.Omega().iter + _count.stepsBefore
 
 
 class _Thread(threading.local):
@@ -86,27 +79,14 @@ def _stay(hasEnded):
 
 def _aside(call):
     """call() in another thread: Python handles no signals in this one while YADE waits in it."""
-    errors, ended = [], threading.Event()
-
-    def work():
+    with concurrent.futures.ThreadPoolExecutor(1) as other:
         try:
-            call()
-        except BaseException as error:
-            errors.append(error)
-        finally:
-            ended.set()
-
-    thread = threading.Thread(target=work, daemon=True)
-    try:
-        thread.start()
-        _stay(lambda: ended.wait(_LOOK))
-    except BaseException:  # of a script's own handler
-        if thread.ident is not None:
-            _yadefrag.stopRun()
-            ended.wait()  # else it would wait for the next run, and take its error
-        raise
-    if errors:
-        raise errors[0]
+            called = other.submit(call)
+            _stay(lambda: concurrent.futures.wait([called], _LOOK).done)
+        except BaseException:  # of a script's own handler
+            _yadefrag.stopRun()  # else it would wait for the next run, and take its error
+            raise
+    return called.result()
 
 
 @contextlib.contextmanager
@@ -200,26 +180,9 @@ class _Functions:
             if self.running or not _rests():
                 _waitWith(self, lambda: _yade.wait(self))
 
-    def step(self):
-        """Ctrl-C ends it after its last engine, not in a PyRunner, which would fail."""
-        if messages.untold:
-            messages.tellNumbers()
-        if scene_check.solvers.data:
-            scene_check.tellUnmoved()
-        with wholeSteps():
-            _yade.step(self)
-
     def pause(self):
         _count.pauses += 1
         _yade.pause(self)
-
-    def resetTime(self: Any) -> None:
-        """A run in progress still ends after its number of steps."""
-        ahead = self.stopAtIter - self.iter
-        _count.stepsBefore += self.iter
-        _yade.resetTime(self)
-        if ahead > 0:
-            self.stopAtIter = ahead
 
     def reset(self):
         """YADE waits for the end of a run with Python's lock held, which its last step may need; and objects in
@@ -241,25 +204,17 @@ class _Functions:
         with _resting():
             _yade.saveTmp(self, mark, quiet)
 
-    def sceneToString(self):
-        with _resting():
-            return _yade.sceneToString(self)
-
     def save(self, file, quiet=False):
-        """Writes beside the old file, and replaces it at the end: a process that is killed leaves one of them whole.
-        Names a file that cannot be written: YADE would not report it, or not end if it is compressed."""
+        """Names a file that cannot be written: YADE would not report it, or not end if it is compressed. The former
+        file is kept then."""
         if not isinstance(file, str) or file.startswith(':memory:'):
             with _resting():
                 return _yade.save(self, file, quiet)
         try:
             requireWritable(file)
-            with _resting(), replacing(file) as part:
-                _yade.save(self, part, quiet)
-                _saved.part, _saved.name = part, file
+            with _resting(), keptAside(file):
+                _yade.save(self, file, quiet)
                 requireWritable(file)  # YADE does not report that the last part of the file was lost
-                if os.path.isfile(part):
-                    with open(part, 'rb') as written:
-                        os.fsync(written.fileno())
         except (OSError, RuntimeError) as error:
             cause = getattr(error, 'strerror', '')
             if not cause and str(error) != 'output stream error':
@@ -267,31 +222,26 @@ class _Functions:
             raise RuntimeError('%s could not be saved: its file cannot be opened or the disk is full%s.' %
                                (shownPath(file), ' (%s)' % cause if cause else '')) from None
 
-    def reload(self: Any, quiet: bool = False) -> None:
-        if _yade.filename.fget(self) == _saved.part:
-            self.load(_saved.name, quiet)
-        else:
-            _yade.reload(self, quiet)
-
-
-def _filename(self):
-    name = _yade.filename.fget(self)
-    return _saved.name if name == _saved.part else name
-
 
 _own = {name: call for name, call in vars(_Functions).items() if not name.startswith('_')}
-_yade = SimpleNamespace(**{name: getattr(wrapper.Omega, name) for name in [*_own, 'filename']})
+_yade = SimpleNamespace(**{name: getattr(wrapper.Omega, name) for name in _own})
 
 
 def install() -> None:
     for name, call in _own.items():
         setattr(wrapper.Omega, name, functools.wraps(getattr(_yade, name))(call))
-    wrapper.Omega.filename = property(_filename, doc=_yade.filename.__doc__)
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # a handler of the script is kept
         signal.signal(signal.SIGINT, _interrupt)
     _yadefrag.watchListItems()
     # The process must not end in the middle of a step.
     atexit.register(_yadefrag.stopRun)
+
+
+def requireNoStep(what: str) -> None:
+    """A run within a step would wait for the end of that step, which waits for the run: RuntimeError."""
+    if _yadefrag.isInStep():
+        raise RuntimeError('%s runs the scene: it cannot be called within a step, as from a PyRunner.' % what)
+    _yadefrag.requirePaused()
 
 
 def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | None = None) -> int:
@@ -301,7 +251,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
     On a terminal a bar shows steps, simulated time and remaining time. Ctrl-C stops after a whole step
     and raises KeyboardInterrupt, so that it ends a script with a loop of runs, too, also one in a
     thread; O.pause() from a PyRunner stops as well, without an exception. The scene is left in that
-    state, and the run can be continued. RuntimeError if an engine stopped the run, with the message of
+    state, and the run can be continued. O.resetTime() in a step counts anew, as in O.run(). RuntimeError if an engine stopped the run, with the message of
     FESolver; messages of other engines are written by YADE.
     """
     steps = whole('steps', steps, most=MOST_STEPS)
@@ -311,7 +261,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
                          'calls.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
     omega = wrapper.Omega()
-    done, begin = 0, stepsDone()
+    done, begin = 0, omega.iter
     try:
         with _bar(steps) as bar:
             portion = 1
@@ -332,7 +282,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
                 seconds = max(time.perf_counter() - start, 1e-9)
                 portion = max(1, min(2 * now, int(.1 * now / seconds)))
     except KeyboardInterrupt:
-        print('Stopped after %d of %d steps, at %.6g s.' % (stepsDone() - begin, steps, omega.time), file=sys.stderr)
+        print('Stopped after %d of %d steps, at %.6g s.' % (omega.iter - begin, steps, omega.time), file=sys.stderr)
         raise
     return done
 
@@ -352,7 +302,7 @@ def runPart(steps: int) -> tuple[int, bool]:
     RuntimeError if an engine stopped the run, KeyboardInterrupt after Ctrl-C.
     """
     omega = wrapper.Omega()
-    begin, pauses = stepsDone(), _count.pauses
+    begin, pauses = omega.iter, _count.pauses
     try:
         with _raisedHere():
             omega.run(steps)
@@ -361,10 +311,10 @@ def runPart(steps: int) -> tuple[int, bool]:
         _yadefrag.stopRun()
         omega.stopAtIter = -1
         raise
-    if stepsDone() - begin == steps and pauses == _count.pauses:
+    if omega.iter - begin == steps and pauses == _count.pauses:
         return steps, False
     _yadefrag.stopRun()  # O.wait() does not wait for the end of a paused run's last step
-    done = stepsDone() - begin
+    done = max(0, omega.iter - begin)  # O.resetTime() may be called in a step
     if done < steps:
         omega.stopAtIter = -1  # otherwise the next O.run() would stop there
     if omega.subStep != -1:

@@ -6,7 +6,7 @@ from typing import Any
 
 from yade import wrapper
 from yadefrag.arguments import FESolver
-from yadefrag.messages import warn
+from yadefrag.messages import tellNumbers, warn
 
 # These engines apply no forces to bodies, or apply them anew in each step.
 _WITHOUT_FORCES = (wrapper.FESolver, wrapper.Collider, wrapper.PeriodicEngine, wrapper.NewtonIntegrator)
@@ -42,6 +42,7 @@ def sentences(kinds: Mapping[str, int], spheres: int, beside: int, leaving: int,
     largest                 m, radius of the largest sphere
     thickness               m, largest thickness of FESolver's bodies
     """
+    tellNumbers()  # O.step() has not told them
     omega = wrapper.Omega()
     engines = [engine for engine in omega.engines if not engine.dead]
     loops = _dispatchers(engines, wrapper.InteractionLoop, 'geomDispatcher', wrapper.IGeomDispatcher)
