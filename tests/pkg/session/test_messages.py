@@ -1,10 +1,9 @@
 """Messages of a step: for each the scene that provokes it, and the same scene with its advice followed.
 
 A cause and a remedy build a scene and run it; the cause must give the message, by an exception or in fe.warnings, the
-remedy must not. docs/checked.md has the thresholds.
+remedy must not. docs/checked.md has the thresholds. Steps that vary, and cracks whose energy step or mesh does not
+resolve, with what their sentences advise: tests/step/energy_watch_test.cpp, tests/fracture/brittle_checks_test.cpp.
 """
-import math
-import random
 import re
 
 import pytest
@@ -71,18 +70,6 @@ def advised(sentence):
 
 
 # --- the step
-
-def varying(draw, factor=.9):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=2e-3, material='steel',
-                      velocity=lambda x, y: (10 * math.sin(300 * x), 5 * y))
-    O.engines = yadefrag.engines(solver)
-    critical, drawn = solver.criticalTimeStep(), random.Random(1)
-
-    def each():
-        O.dt = factor * critical * draw(drawn)
-    return ran(solver, 1000, each)
-
 
 def bullet(speed, dt=None, shape=None):
     """Two blocks of which one is faster than waves."""
@@ -200,19 +187,9 @@ def changedMaterial(when):
     return ranAt(.5, solver, 2)
 
 
-def uniform(low):
-    return lambda draw: low + (1 - low) * draw.random()
-
-
 UPRIGHT = [(-1, -1, 1), (1, -1, 1), (0, -1, -2)]
 PRESSED = 'is pressed to .* of its area in a step of .*; the flatter an element is, the stiffer it gets: '
 TABLE = {
-    'steps that vary: a constant one': (
-        'time integration has created .* keep the time step constant, or', lambda: varying(uniform(.3)),
-        lambda: varying(lambda draw: 1)),
-    'steps that vary: below a third': (
-        'time integration has created .* or below a third', lambda: varying(uniform(.3)),
-        lambda: varying(uniform(.3), .9 / 3)),
     'a body moves too far against another': (
         'a body moves against another by', lambda: bullet(5e4),
         lambda: followed(lambda dt: bullet(5e4, dt), 'a body moves against another by')),
