@@ -14,7 +14,7 @@ from typing import Any
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, flag, number, positive, real, refuse
+from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, anyNumber, flag, number, real, refuse
 from yadefrag.fe.contents import betweenSteps, componentOf, newName, nodesOf, requireBetweenSteps, shownTriangles
 from yadefrag.fe.fields import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
 from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
@@ -115,7 +115,7 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocit
     nodes = mesh.nodes
     spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
     selfContact = flag('selfContact', selfContact)
-    thickness = positive('thickness', thickness, 'm')
+    thickness = anyNumber('thickness', thickness, 'm')
     moved = field('displacement', displacement, nodes)
     flows = materials.yields and not any(one.planeStress for one in materials.of)
     stressed, across = stressOfTriangles(stress, mesh, flows)
