@@ -128,7 +128,7 @@ def test_everyArgumentHasForms():
     for variant, function in forms.VARIANTS.items():
         table[function] |= table[variant]
     bodies = {argument for name in table if name.startswith('add') for argument in table[name]}
-    # Of attributes, updateAttrs among them, see test_calls.py.
+    # Of attributes, updateAttrs among them: test_refused_values.py.
     methods = [name for name in vars(w.FESolver) if name[0] != '_' and name != 'updateAttrs' and callable(getattr(w.FESolver, name))]
     missing = []
     for name in api_calls.ownFunctions() + methods:

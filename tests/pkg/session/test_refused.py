@@ -225,6 +225,7 @@ CALLS = [
     (lambda fe: fe.addMesh((1, 2, 3), 'm'), r'it must be a Mesh, the MeshFile of readMesh, or a pair'),
     (lambda fe: fe.addMesh((square(5), [(0, 1, 4)]), 'm'), 'triangles has node numbers from 0 to 4'),
     (lambda fe: fe.addMesh((square(5), [(0, 1, 2)]), 'm'), 'node 3 belongs to no triangle'),
+    (lambda fe: fe.addTriangles([(5, 0), (6, 0), (5, 1), (4, 0), (5, -1)], [(0, 1, 2), (0, 3, 4)], 'm'), 'passes twice through node 0'),
     (lambda fe: fe.addMesh((square(5), [(0, 2, 1), (0, 1, 3)]), 'm'), '(?i)triangle'),
     (lambda fe: fe.addMesh(yadefrag.polygonMesh(square(5), size=.4, joints=JOINTS), 'hard', jointStrength=[1, 2]),
      'jointStrength has 2 values, it must have one for each of the 3 joints'),
@@ -238,7 +239,8 @@ CALLS = [
         dict(gravity=(0, 0, -9.81)), dict(gravity=(1,)), dict(damping=HUGE))],
     *[(lambda fe, wrong=wrong: yadefrag.inCurveOrder([(0, 0, 0), wrong]), r'bodies\[1\]') for wrong in (
         (1, 2), (1, 2, NAN), 'abc', 3, None, (1, 2, 3, 4), ((1, 2, INF), .1))],
-    (lambda fe: yadefrag.plotMesh(fe, 'mises', limits=('a', 1)), 'limits is'),
+    (lambda fe: yadefrag.plotMesh(fe, 'mises', limits=('a', 1)), 'limits is'), (lambda fe: yadefrag.plotMesh(fe, scale=-1), 'scale is -1'),
+    *[(lambda fe, table=table: table(fe, 'a.txt'), r"its name must end with '\.csv'") for table in (yadefrag.crackTable, yadefrag.fragmentTable)],
     *[(lambda fe, change=change: yadefrag.animate(fe, **{'file': 'a.gif', 'steps': 10, 'every': 5, **change}), words)
       for change, words in ((dict(steps=0), 'steps is 0'), (dict(window=((0, 0), 1)), 'window is'), (dict(rate=0), 'rate is 0'),
                             (dict(file='a.avi'), "must end with '.gif'"), (dict(field='none'), "field is 'none'"),
