@@ -243,15 +243,6 @@ def heapSpheres():
     O.dt *= .5
 
 
-def state(solver):
-    return (solver.nodes, solver.velocities, solver.masses, solver.triangles,
-            np.concatenate(solver.surfaces), solver.fragmentOf)
-
-
-def areSame(a, b):
-    return all(np.array_equal(x, y) for x, y in zip(a, b))
-
-
 def requireBodiesAreEntries(solver):
     """One body for each piece, of the right kind, in closed chains on the nodes' places."""
     pieces = sorted((b.shape for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)),

@@ -82,11 +82,11 @@ def others(groups):
     forms = [form for group in groups for form in group]
     first = next((one for one in forms if one is not None), None)
     wrong = [object(), {'x': {1}}, b'\xff', 1j, [[1], [2, 3]]] + [None] * all(one is not None for one in forms)
-    wrong += ['much'] * (not any(isinstance(one, (str, pathlib.Path)) for one in forms))
+    wrong += ['much', 'much' * 10**4] * (not any(isinstance(one, (str, pathlib.Path)) for one in forms))
     if isinstance(first, bool):
         wrong += [2]
     elif any(isinstance(one, np.uint8) for one in forms):
-        wrong += [1.5, True, -1]
+        wrong += [1.5, True, -1, 10**5000]
     elif isinstance(first, (int, float)):
         wrong += [math.nan] + [True] * (len(groups) == 1)
     elif isinstance(first, tuple) and len(first) == 2:
