@@ -112,6 +112,11 @@ def number(name: str, value: object, isRight: Callable[[float], Any], right: str
     return result
 
 
+def anyNumber(name: str, value: object, unit: str) -> float:
+    """A float, whose range the C++ that takes it checks."""
+    return number(name, value, lambda v: True, 'a number (%s)' % unit)
+
+
 def positive(name: str, value: object, unit: str) -> float:
     return number(name, value, lambda v: math.isfinite(v) and v > 0, 'a positive number (%s)' % unit)
 

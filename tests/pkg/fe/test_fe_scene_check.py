@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, momentum, O, reloaded, run, solverOfScene, steps
+from fe_scene import fe, finder, momentum, O, reloaded, run, steps
 from yade import utils
 from yade import wrapper as w
 
@@ -53,7 +53,7 @@ def test_completeSceneGivesNoMessage(capfd):
     (lambda: utils.wall(-1, axis=1), 'Wall'), (lambda: utils.box((0, -1, 0), (1, .1, 1)), 'Box'),
     (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet'),
     (lambda: utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'), 'Tetra')])
-def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
+def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd):
     solver = scene(rigidBodies=False)
     steps(2)
     O.bodies.append(make())
@@ -64,12 +64,6 @@ def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
     [sentence] = messages(solver, capfd)
     assert sentence.startswith('FE bodies go through bodies of the shape %s, such as #%d: %s' % (
         shape, number, 'they touch each other, spheres, walls, boxes and facets only' * (shape == 'Tetra')))
-    # It is part of the scene, and not repeated.
-    path = os.path.join(folder, 'scene.yade')
-    O.save(path)
-    O.load(path)
-    steps(2)
-    assert solverOfScene().warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
 
 
 def test_masksThatExcludeContactOfBodiesAreReported(capfd):
@@ -178,7 +172,7 @@ def test_energiesOfTheSceneHaveTheSolversSigns():
 kOrder = 'the order is ForceResetter, collider, InteractionLoop, FESolver, NewtonIntegrator'
 
 
-def blow(order):
+def blow(order, loop=w.InteractionLoop, integrator=w.NewtonIntegrator):
     """A sphere that hits a block, with engines in the order given by letters; the solver."""
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.25, material='m')
@@ -186,9 +180,8 @@ def blow(order):
     sphere.state.vel = (2, 0, 0)
     O.bodies.append(sphere)
     made = dict(
-        R=w.ForceResetter(), C=finder('LebesgueCollider'), F=solver, N=w.NewtonIntegrator(damping=0),
-        I=w.InteractionLoop([w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                            [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
+        R=w.ForceResetter(), C=finder('LebesgueCollider'), F=solver, N=integrator(damping=0),
+        I=loop([w.Ig2_Sphere_SurfaceSegment_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
     O.engines = [made[letter] for letter in order]
     O.dt = .05 * solver.criticalTimeStep()
     return solver
@@ -219,15 +212,19 @@ def test_momentumIsKeptOrTheOrderRefused(order):
     assert np.abs(after - before).max() < 1e-9 * before[0] + 2 * way
 
 
-def test_orderIsCheckedAgain():
+@pytest.mark.parametrize('kinds', [(), (w.CurveLoop, w.CurveIntegrator)])
+def test_orderIsCheckedAgain(kinds):
     """As engines change in the middle of a run, and as one is disabled or enabled; a missing resetter is refused."""
-    blow('CIFN')
-    with pytest.raises(ValueError, match='no ForceResetter.*' + kOrder):
+    blow('CIFN', *kinds)
+    with pytest.raises(ValueError, match='has an InteractionLoop and no ForceResetter.*' + kOrder):
         O.step()
     O.reset()
-    blow('RCIFN')
+    blow('RCIFN', *kinds)
     steps(2)
-    O.engines = [O.engines[i] for i in (0, 3, 1, 2, 4)]
+    O.engines = [O.engines[i] for i in (1, 2, 0, 3, 4)]
+    with pytest.raises(ValueError, match='ForceResetter deletes the forces of %s .*%s' % (type(O.engines[1]).__name__, kOrder)):
+        O.step()
+    O.engines = [O.engines[i] for i in (2, 3, 0, 1, 4)]
     with pytest.raises(ValueError, match=kOrder):
         O.step()
     O.engines[3].dead = True

@@ -7,7 +7,7 @@ import pytest
 
 import yadefrag
 from fe_scene import fe, finder, impact, momentum, O, ready, reloaded, run, steps, throwBall
-from yade import gridpfacet, O, utils, wrapper as w
+from yade import gridpfacet, utils, wrapper as w
 from yade.wrapper import *
 from yadefrag import *
 
@@ -109,13 +109,6 @@ def test_addTriangles():
     assert solver.addTriangles(nodes, triangles, material='m') == 0
     assert np.array_equal(solver.nodes, nodes) and np.array_equal(solver.triangles, triangles)
     assert len(O.bodies) == 24
-    for wrong, sentence in ((triangles[:, ::-1], '.'), (triangles[:5], 'belongs to no triangle'),
-                            (triangles + 40, 'node numbers from'), (triangles * .5, 'an array')):
-        with pytest.raises(ValueError, match=sentence):
-            solver.addTriangles(nodes, wrong, material='m')
-    crossing = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)])
-    with pytest.raises(ValueError, match='passes twice through node 0'):
-        solver.addTriangles(crossing, [(0, 1, 2), (0, 3, 4)], material='m')
 
 
 def test_clockwiseOutlineKeepsItsFlags():

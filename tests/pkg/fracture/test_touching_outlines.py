@@ -9,14 +9,7 @@ import outline_files as touching
 import yadefrag
 from fe_scene import brittle, engines, heard, O
 from outline_files import area
-from yade import wrapper as w
-
-
-def solverOf(material='m'):
-    O.reset()
-    O.materials.append(w.FEMat(young=1e9, poisson=.2, density=2000, frictionAngle=.5, label='m'))
-    O.materials.append(brittle(label='b', fractureEnergy=50))
-    return w.FESolver()
+from test_fe_bonds import solverOf
 
 
 def addAll(outlines, size, **given):
@@ -196,7 +189,7 @@ def test_aCoarserBodyIsGivenTheNodesOfAFinerOne():
 def plateOf(joints, size=.05, **given):
     solver = solverOf()
     with heard() as texts:
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=size, material='b', joints=joints, **given)
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=size, material=brittle(fractureEnergy=50), joints=joints, **given)
     return solver, texts
 
 

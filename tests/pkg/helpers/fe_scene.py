@@ -223,6 +223,16 @@ def wallAndClump(young=2e9, fixed=lambda x, y: abs(y) > .5 - 1e-9):
     return solver, clump
 
 
+def splitting(intoCracks=True):
+    """A bar with a weak joint in its middle, that is drawn apart; pressure on its lower side."""
+    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, label='b'))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.1, material='b', joints=[((.5, 0), (.5, .4))],
+                      jointStrength=1e3, jointEnergy=0, velocity=lambda x, y: (.5 if x > .5 else -.5 if x < .5 else 0, 0))
+    run(solver, factor=.5)
+    solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=intoCracks)
+    return solver
+
+
 def heapSpheres():
     """Six spheres that fall on the block, beside the disc; they take half the time step."""
     for i in range(6):
@@ -231,15 +241,6 @@ def heapSpheres():
         ball.state.vel = (0, -5, 0)
         O.bodies.append(ball)
     O.dt *= .5
-
-
-def state(solver):
-    return (solver.nodes, solver.velocities, solver.masses, solver.triangles,
-            np.concatenate(solver.surfaces), solver.fragmentOf)
-
-
-def areSame(a, b):
-    return all(np.array_equal(x, y) for x, y in zip(a, b))
 
 
 def requireBodiesAreEntries(solver):

@@ -26,13 +26,21 @@ def state():
     return scenes.state() + [np.array(rows, float).tobytes()]
 
 
-def run(name, functors, steps, build=heap, change=None, threads=-1, **settings):
-    """`change(part)` is called after each quarter of the steps."""
-    build(**settings)
+NAMES = 'InteractionLoop', 'CurveLoop'
+
+
+def place(name, functors, *before, collider='LebesgueCollider'):
+    """The loop, in the engines of a heap, behind those of `before`."""
     loop = getattr(w, name)(*functors)
-    loop.ompThreads = threads
-    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop,
+    O.engines = [w.ForceResetter(), *before, scenes.makeCollider(collider), loop,
                  w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+    return loop
+
+
+def run(name, functors, steps, build=heap, change=None, threads=-1, collider='LebesgueCollider', **settings):
+    """(loop, states after each quarter of the steps); then `change(part)` is called."""
+    build(**settings)
+    place(name, functors, collider=collider).ompThreads = threads
     found = []
     for part in range(4):
         O.run(steps // 4, True)
@@ -45,7 +53,7 @@ def run(name, functors, steps, build=heap, change=None, threads=-1, **settings):
 def requireSame(make, steps, material=None, **settings):
     """`make()`, `material()`: functors and a material, anew for each of the two."""
     found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
+    for name in NAMES:
         if material:
             settings['material'] = material()
         loop, states = run(name, make(), steps, **settings)

@@ -7,11 +7,9 @@ import yadefrag
 from yade import utils
 
 import scenes
-from loop_twins import denseHeap, geometries
+from loop_twins import denseHeap, geometries, NAMES, place, requireSame, run
 from scenes import O, heap, state
 from test_laws import cohesive, friction, functors
-
-NAMES = 'InteractionLoop', 'CurveLoop'
 
 
 def frictional(law=None, **sphere):
@@ -21,26 +19,9 @@ def frictional(law=None, **sphere):
 
 kFunctors = dict(
     friction=frictional,
-    arms=lambda: frictional(dict(sphericalBodies=False), avoidGranularRatcheting=False),
     distant=lambda: frictional(dict(neverErase=True), interactionDetectionFactor=1.2),
     traced=lambda: frictional(dict(traceEnergy=True)),
     rotations=lambda: (geometries('6D'), [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
-
-
-def run(name, functors, steps, build=heap, collider='LebesgueCollider', **settings):
-    build(**settings)
-    O.engines = [w.ForceResetter(), scenes.makeCollider(collider), getattr(w, name)(*functors),
-                 w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
-    O.run(steps, True)
-    return O.engines[2], state()
-
-
-def requireSame(make, steps=700, **settings):
-    """The loop, after comparing all bits."""
-    (_, expected), (loop, found) = [run(name, make(), steps, **settings) for name in NAMES]
-    assert O.interactions.countReal() > 40
-    assert found == expected
-    return loop
 
 
 @pytest.mark.parametrize('kind', kFunctors)
@@ -57,10 +38,11 @@ def test_bits(kind, collider, build):
 
 def test_otherLaws():
     """One with moments, and one that the loop does not know."""
-    loop = requireSame(lambda: functors(cohesive, cohesive.options['friction']), material=cohesive.material(momentRotationLaw=True))
+    loop = requireSame(lambda: functors(cohesive, cohesive.options['friction']), steps=700,
+                       material=lambda: cohesive.material(momentRotationLaw=True))
     assert loop.fastForces == O.interactions.countReal()
     linear = requireSame(lambda: [geometries(), [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
-                                  [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]])
+                                  [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]], 700)
     assert linear.fastForces == 0 and linear.fastGeometries > 20
 
 
@@ -80,11 +62,9 @@ def test_forcesOfOthers(laws, build):
         viscous = w.ViscElMat(kn=1e6, ks=5e5, cn=100, cs=50, density=2000, frictionAngle=.4)
         for body in list(O.bodies)[:144 if laws == 'viscous' else 50 if laws == 'mixed' else 0]:
             body.material = viscous
-        loop = getattr(w, name)(*(kFunctors[laws]() if laws in kFunctors else mixed()))
         ids = [b.id for b in O.bodies if b.dynamic][::3]
-        O.engines = [w.ForceResetter(), w.ForceEngine(ids=ids, force=(5, .1, 1 / 3)),
-                     w.TorqueEngine(ids=[0, 60], moment=(.1, .7, 0)), scenes.makeCollider('LebesgueCollider'),
-                     loop, w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+        loop = place(name, kFunctors[laws]() if laws in kFunctors else mixed(), w.ForceEngine(ids=ids, force=(5, .1, 1 / 3)),
+                     w.TorqueEngine(ids=[0, 60], moment=(.1, .7, 0)))
         O.forces.setPermF(5, (0, 0, 100))
         O.run(60 if build is denseHeap else 500, True)
         found.append(state())
@@ -107,9 +87,7 @@ def test_energies(way, build):
     for name in NAMES:
         build()
         O.trackEnergy = way[0] == 'O'
-        loop = getattr(w, name)(*kFunctors['friction' if O.trackEnergy else 'traced']())
-        O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop,
-                     w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+        loop = place(name, kFunctors['friction' if O.trackEnergy else 'traced']())
         sums = []
         for steps in (100, 200):
             O.run(steps, True)
@@ -143,7 +121,7 @@ def test_callbacksAndSortedLists(isSorted):
 
 def test_isALoop():
     """YADE's functions find it; wrong arguments are refused as by YADE."""
-    loop, _ = run('CurveLoop', kFunctors['friction'](), 1)
+    loop, _ = run('CurveLoop', kFunctors['friction'](), 4)
     assert isinstance(loop, w.InteractionLoop) and utils.typedEngine('InteractionLoop') is not None
     assert utils.typedEngine('InteractionLoop') == loop
     with pytest.raises(Exception, match='Exactly 3 lists of functors'):

@@ -78,7 +78,8 @@ def state(fe):
 
 # --- what can be called
 
-def exampleFiles(folder):
+def exampleFiles(fe, folder):
+    yadefrag.recordFracture(fe, folder + '/run.csv')
     table = yadefrag.TradeoffTable([tradeoff_table.TradeoffRow({'k': 1}, 'ok', 1., 1., .1, .1, 10, [1.], [1.]),
                                     tradeoff_table.TradeoffRow({'k': 2}, 'ok', 2., 2., .01, .1, 10, [2.], [2.])])
     table.csv(folder + '/table.csv')
@@ -88,59 +89,24 @@ def exampleFiles(folder):
     return table
 
 
-def right(fe, folder):
-    """For each function the arguments of a call that succeeds."""
-    square = yadefrag.rectangle((5, 5), (6, 6))
-    csv = folder + '/run.csv'
-    yadefrag.recordFracture(fe, csv)
-    job = dict(scene=trialScene, vary={'passes': [1]}, measure=trialMeasure, duration=1., repeats=1)
-    return dict(
-        rectangle=dict(low=(0, 0), high=(1, 1)), circle=dict(centre=(0, 0), radius=1, n=8),
-        ring=dict(centre=(0, 0), inner=1, outer=2, n=8), readPolygon=dict(file=folder + '/plate'),
-        readOutline=dict(file=folder + '/plate.csv', tolerance=None, scale=1., gap=1e-6, simplify=1e-3, leastArea=0.),
-        readMesh=dict(file=folder + '/mesh.inp', scale=1.),
-        outlineReport=dict(outline=square, holes=(), size=.5, material='b', simplify=.01),
-        voronoi=dict(outline=square, n=3, seed=1, rounds=1, shortest=.01), grainJoints=dict(grains=[square, square[::-1]]),
-        snapOutlines=dict(shapes=[square, square[::-1]], tolerance=1e-3),
-        polygonMesh=dict(outline=square, holes=(), size=.5, mesh='regular', meshSeed=1, smooth=False, simplify=.1,
-                         joints=[((5.2, 5.2), (5.8, 5.7))], jointTolerance=.01),
-        rectangleMesh=dict(low=(0, 0), high=(1, 1), nx=2, ny=2, crossed=False),
-        plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1), xlim=(0, 3), ylim=(0, 2.), spheres=True),
-        animate=dict(fe=fe, file=folder + '/a.gif', steps=1, every=1, field=None, limits=None, window=None,
-                     rate=20),
-        exportVTK=dict(fe=fe, file=folder + '/a.vtu', fields=['stress', 'velocity']), runSteps=dict(steps=2, every=1, call=lambda: None),
-        fragmentTable=dict(fe=fe, file=folder + '/b.csv'),
-        plotFragmentSizes=dict(fe=fe, file=folder + '/c.png', ax=None, components=[0, 1]),
-        recordFracture=dict(fe=fe, file=csv, append=True), plotFracture=dict(file=csv, picture=None),
-        tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title='', executor=None, resume=None),
-        ensemble=dict(scene=trialScene, runs=[1, 2], measure=trialMeasure, duration=1., watch=None, every=0., limit=60.,
-                      executor=None, workers=1, resume=folder + '/done.jsonl', files=None, title=''),
-        addPolygon=dict(outline=square, holes=(), size=.5, material='b', smooth=False, velocity=(0, 0), spin=0,
-                        displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1,
-                        strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0., name='new', snap=.01,
-                        joints=[((5.2, 5.2), (5.8, 5.7))], jointStrength=[0.], jointEnergy=1.),
-        addMesh=dict(mesh=yadefrag.rectangleMesh((5, 5), (6, 6), 1, 1), material='b', smooth=None, velocity=(0, 0), spin=0,
-                     displacement=None, stress=(0, 0, 0), fixed=None, thickness=1, strength=[1e4, 1e4], element='linear'),
-        addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='b', smooth=False,
-                          velocity=(0, 0), spin=0, displacement=None, fixed=None, thickness=1,
-                          selfContact=True, strength=[1e4], fractureEnergy=[0.]),
-        bond=dict(a=0, b=1, strength=1e6, energy=1e3), bondAll=dict(tolerance=1e-3, strength=1e6, energy=1e3),
-        prescribe=dict(nodes=[0], vx=[(0, 0.), (1, 1.)], vy=None), removeBody=dict(component=0), fragments=dict(held=False),
-        about=dict(show=str), inCurveOrder=dict(bodies=[(0, 0, 0), ((1, 1, 0), .5)]),
-        crackTable=dict(fe=fe, file=folder + '/d.csv'), engines=dict(fe=fe, gravity=(0, -1), spheres=True),
-        FERecorder=dict(iterPeriod=5, file=folder + '/e', fields=['stress']),
-        rotate=dict(nodes=0, omega=[(0, 0), (1, 2.)], centre=(0, 0)), nodesOf=dict(component=0),
-        pressure=dict(nodes=lambda x, y: x < .1, p=[(0, 1.), (1, 2.)]), absorb=dict(nodes=lambda x, y: x < .1),
-        relax=dict(tolerance=1e9, most=30), reaction=dict(nodes=[0]), contactForce=dict(a=0, b=1),
-        updateAttrs=dict(attributes={'label': 'x'}))
-
-
 def trialScene(_):
     """Never run here: tradeoff's runs are left out."""
 
 
 def trialMeasure(_):
     """Likewise."""
+
+
+def calls(fe, folder):
+    """{function, or variant: (what is called, forms of its arguments, arguments of a call that succeeds)}"""
+    found, table = {}, api_values.forms(fe, folder, (trialScene, trialMeasure))
+    for name, groups in table.items():
+        function = api_values.VARIANTS.get(name, name)
+        call = getattr(yadefrag, function, None) or getattr(fe, function, None) or (lambda loads: setattr(fe, 'loads', loads))
+        needed = [one.name for one in inspect.signature(call).parameters.values() if one.default is one.empty]
+        right = {one: table[function][one][0][0] for one in needed if one in table[function]}
+        found[name] = call, groups, {**right, **api_values.NEEDED.get(name, {})}
+    return found
 
 
 def ownFunctions():
@@ -189,43 +155,38 @@ class Call:
             return api_values.alike(self.draw, self.fe, right)
         return api_values.anything(self.draw, self.fe)
 
-    def spoilt(self, known):
+    def withKeywords(self, label, called):
         """Of right arguments one or two replaced, left out or added."""
-        args = dict(known)
+        function, groups, args = called
         for _ in range(self.draw.choice([1, 1, 1, 2])):
-            if not args or self.draw.random() < .02:
+            if not groups or self.draw.random() < .02:
                 args[self.draw.choice(['nope', 'fe', 'size'])] = self.wrong()
                 continue
-            name = self.draw.choice(list(args))
+            name = self.draw.choice(list(groups))
             if self.draw.random() < .05:
-                del args[name]
+                args.pop(name, None)
             else:
-                args[name] = self.wrong(known.get(name))
-        return args
-
-    def withKeywords(self, name, function, known):
-        args = self.spoilt(known)
+                args[name] = self.wrong(self.draw.choice(groups[name])[0])
         for many in ('steps', 'every', 'repeats', 'most'):  # right, but for ever
             if (real(args.get(many)) or 0) > 100:
                 args[many] = 10**400
-        self.mayStep = callable(args.get('call')) or name.endswith('relax')
-        return '%s(%s)' % (name, ', '.join('%s=%s' % (n, shown(v)) for n, v in args.items())), \
+        self.mayStep = callable(args.get('call')) or label.endswith('relax')
+        return '%s(%s)' % (label, ', '.join('%s=%s' % (n, shown(v)) for n, v in args.items())), \
             lambda: function(**args)
 
     def ofFunction(self):
-        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addMesh', 'addTriangles', 'bond', 'bondAll', 'prescribe', 'rotate', 'pressure', 'absorb'])
-        function = getattr(yadefrag, name, None) or getattr(self.fe, name)
-        return self.withKeywords(name, function, right(self.fe, self.folder)[name])
+        known = calls(self.fe, self.folder)
+        name = self.draw.choice(list(known))
+        return self.withKeywords(name, known[name])
 
     def ofMethod(self):
         target = self.draw.choice(targets(self.fe, self.table))
         name = self.draw.choice(methods(type(target)))
-        known = right(self.fe, self.folder)
-        label = '%s.%s' % (type(target).__name__, name)
-        if name in known:
-            return self.withKeywords(label, getattr(target, name), known[name])
+        known = calls(self.fe, self.folder)
+        if name in known and target is self.fe:
+            return self.withKeywords('FESolver.' + name, known[name])
         args = [self.wrong() for _ in range(self.draw.choice([0, 1, 1, 2, 3]))]
-        return '%s(%s)' % (label, ', '.join(map(shown, args))), lambda: getattr(target, name)(*args)
+        return '%s.%s(%s)' % (type(target).__name__, name, ', '.join(map(shown, args))), lambda: getattr(target, name)(*args)
 
     def ofAttribute(self):
         target = self.draw.choice(targets(self.fe, self.table)[:11])
@@ -321,12 +282,12 @@ def main(seed, calls, logName):
     counts = types.SimpleNamespace(done=0, refused=0)
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        table = exampleFiles(folder)
-        fe = None
+        fe, table = None, None
         for number in range(int(calls)):
             moment = draw.choice(kMoments)
             if fe is None or number % 10 == 0:
                 fe = scene(moment)
+                table = exampleFiles(fe, folder)
             call = Call(draw, fe, folder, table)
             log.write('%d %s: %s\n' % (number, moment, call.text))
             log.flush()

@@ -77,8 +77,21 @@ def strain(x, y):
     return 1e4
 
 
-# What is wrong for every argument, and besides None where no group has it.
-WRONG = [object(), {'x': {1}}, b'\xff', 1j, [[1], [2, 3]]]
+def others(groups):
+    """What is wrong for an argument with these forms: values of no kind that it has."""
+    forms = [form for group in groups for form in group]
+    first = next((one for one in forms if one is not None), None)
+    wrong = [object(), {'x': {1}}, b'\xff', 1j, [[1], [2, 3]]] + [None] * all(one is not None for one in forms)
+    wrong += ['much', 'much' * 10**4] * (not any(isinstance(one, (str, pathlib.Path)) for one in forms))
+    if isinstance(first, bool):
+        wrong += [2]
+    elif any(isinstance(one, np.uint8) for one in forms):
+        wrong += [1.5, True, -1, 10**5000]
+    elif isinstance(first, (int, float)):
+        wrong += [math.nan] + [True] * (len(groups) == 1)
+    elif isinstance(first, tuple) and len(first) == 2:
+        wrong += [1, (1, 2, 3), (1, math.nan)]
+    return wrong
 
 
 def loads(fe):
@@ -140,9 +153,19 @@ def choices(trial):
                 limit=[R(8.)], title=[TEXT('t')], executor=[NONE])
 
 
+JOINTS = [((5.2, 5.2), (5.8, 5.7)), ((5.2, 5.8), (5.4, 5.8))]
+# Calls of the same function with arguments that need others; and those that are needed, where they have a default.
+VARIANTS = dict(severalFields='plotMesh', twoJoints='addPolygon', twoMaterials='addMesh')
+NEEDED = dict(
+    polygonMesh=dict(joints=JOINTS[:1]), addPolygon=dict(joints=JOINTS[:1], jointEnergy=1.),
+    twoJoints=dict(joints=JOINTS, jointEnergy=1.),
+    twoMaterials=dict(material=['b', 'm']), plotMesh=dict(field='mises'), severalFields=dict(fields=['xx', 'speed']),
+    plotFragmentSizes=dict(components=[0, 1]), runSteps=dict(every=1, call=float), relax=dict(most=30))
+
+
 def forms(fe, folder, trial):
-    """{function: {argument: groups}} of everything public; arguments that a group cannot have are those of `right`."""
-    joint = [((5.2, 5.2), (5.8, 5.7)), ((5.2, 5.8), (5.4, 5.8))]
+    """{function, or variant: {argument: groups}} of everything public; the first form of an argument without a default is
+    part of all calls."""
     count = len(fe.triangles)
     pictures = dict(file=[NONE, PATH(folder + '/p.png')], limits=[NONE, P(0, 1)], spheres=[F(True), F(False)],
                     rigidBodies=[F(True)], scale=[R(2), R(0)])
@@ -185,7 +208,7 @@ def forms(fe, folder, trial):
                       workers=[NONE, W(1)], files=[NONE, PATH(folder + '/t')], resume=[NONE, PATH(folder + '/new.jsonl')]),
         addPolygon=dict(body(fe), **mesh(fe), mesh=[NONE, TEXT('irregular'), TEXT('regular')], snap=[NONE, R(.125), R(0)],
                         jointStrength=[NONE + LIST([None]), R(0) + EACH([0])], jointEnergy=[NONE + LIST([None]), R(1.) + EACH([1.])]),
-        twoJoints=dict(joints=[LIST(joint)], jointStrength=[NONE + LIST([None, None]), R(2e4) + EACH([2e4, 2e4]), LIST([None, 0.])],
+        twoJoints=dict(joints=[LIST(JOINTS)], jointStrength=[NONE + LIST([None, None]), R(2e4) + EACH([2e4, 2e4]), LIST([None, 0.])],
                        jointEnergy=[NONE + LIST([None, None]), R(1.) + EACH([1., 1.]), LIST([1., None])]),
         twoMaterials=dict(interfaceStrength=[NONE + [{('m', 'b'): None}, {}, lambda x, y: None], R(2e4) + FN(lambda x, y: 2e4) + [{('m', 'b'): 2e4}, {(1, 0): 2e4}]],
                           interfaceEnergy=[NONE + [{('m', 'b'): None}, {}, lambda x, y: None], R(2) + FN(lambda x, y: 2) + [{('b', 'm'): 2}]]),

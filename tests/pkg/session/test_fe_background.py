@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import areSame, brittle, brittleImpact, O, solverOfScene, state, steps
+from fe_scene import brittle, brittleImpact, O, steps
 from project import inYade
+from test_same_bits import differences, state
 from yade import wrapper as w
 from yadefrag import _yadefrag
 from yadefrag.fe.contents import betweenSteps
@@ -206,7 +207,7 @@ def test_savedInTheBackground():
     cracking()
     last = O.iter + 150
     steps(150)
-    wanted = state(solverOfScene())
+    wanted = state()
     O.reset()
     cracking()
     marks = []
@@ -221,14 +222,14 @@ def test_savedInTheBackground():
     O.wait()
     assert O.iter == last and not O.running
     saver.join()
-    assert areSame(state(solverOfScene()), wanted)
+    assert differences(wanted, state()) == []
     seen = set()
     for mark in marks[::max(1, len(marks) // 6)]:
         O.loadTmp(mark)
         seen.add(O.iter)
         while O.iter < last:
             O.step()
-        assert areSame(state(solverOfScene()), wanted)
+        assert differences(wanted, state()) == []
     assert len(seen) > 1
 
 

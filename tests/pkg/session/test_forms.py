@@ -24,33 +24,15 @@ from yade import wrapper as w
 from yadefrag.arguments import shown
 from yadefrag.studies import ensemble_runs, tradeoff_grid
 
-# Calls of the same function with arguments that need each other: what replaces those of `right`.
-kVariants = dict(
-    plotMesh=('plotMesh', {}, dict(file=None)),
-    severalFields=('plotMesh', dict(field=None, limits=None, ax=None, file=None), dict(fields=['xx', 'speed'])),
-    twoJoints=('addPolygon', {}, dict(joints=[((5.2, 5.2), (5.8, 5.7)), ((5.2, 5.8), (5.4, 5.8))], jointStrength=0, jointEnergy=None)),
-    twoMaterials=('addMesh', dict(strength=None), dict(material=['b', 'm'], interfaceStrength=1e4)),
-    setLoads=('setLoads', {}, {}))
-kMore = dict(addMesh=dict(fractureEnergy=None, selfContact=True, name=None), polygonMesh=dict(simplify=None), outlineReport=dict(simplify=None),
-             addPolygon=dict(simplify=None, element=None, jointEnergy=None, mesh=None, meshSeed=0), reaction={}, meshQuality=dict(component=0),
-             componentOf=dict(name='first'), setLoads=dict(loads=None), engines=dict(damping=.2, collider=None, moving=False, loop=None, integrator=None),
-             addTriangles=dict(strength=None, fractureEnergy=None, element=None, name=None), prescribe={}, pressure=dict(intoCracks=False))
-
-
 def made(name, folder):
-    """(solver, the call, its right arguments, groups of forms by argument) in a new scene and folder."""
+    """(solver, the call, groups of forms by argument, its right arguments) in a new scene and folder."""
     shutil.rmtree(folder, ignore_errors=True)
     os.mkdir(folder)
-    api_calls.exampleFiles(folder)
-    pathlib.Path(folder, 'numbers').write_text('1 2\n')
     fe = api_calls.scene('between')
-    function, without, more = kVariants.get(name, (name, {}, {}))
-    right = {**api_calls.right(fe, folder).get(function, {}), **kMore.get(function, {}), **without, **more}
-    for one in ('displacement', 'stress', 'snap') if function.startswith('add') else ():
-        right.pop(one, None)  # not together
+    api_calls.exampleFiles(fe, folder)
+    pathlib.Path(folder, 'numbers').write_text('1 2\n')
     O.dt *= .2  # for bonds and joints
-    call = getattr(yadefrag, function, None) or getattr(fe, function, None) or (lambda loads: setattr(fe, 'loads', loads))
-    return fe, call, right, forms.forms(fe, folder, (api_calls.trialScene, api_calls.trialMeasure))[name]
+    return fe, *api_calls.calls(fe, folder)[name]
 
 
 def told(value):
@@ -74,7 +56,7 @@ def told(value):
 
 def outcome(name, argument, place, folder):
     """All that a call with one form has done: its result, the scene after two steps, and files."""
-    fe, call, right, groups = made(name, folder)
+    _, call, groups, right = made(name, folder)
     value = groups[argument][place[0]][place[1]]
     jobs = []
     tradeoff_grid._runAll = lambda rows, settings, job, *others: jobs.append([settings, sorted(job.items()), others[0]])
@@ -84,7 +66,7 @@ def outcome(name, argument, place, folder):
         result = told(call(**{**right, argument: value}))
     except Exception as error:
         pytest.fail('%s(%s=%s) is refused: %s' % (name, argument, shown(value), error))
-    if hasattr(w.FESolver, kVariants.get(name, (name,))[0]):
+    if hasattr(w.FESolver, forms.VARIANTS.get(name, name)):
         O.step()
         O.save(folder + '/state.xml')
     seen = [result, repr(jobs)]
@@ -97,8 +79,8 @@ def outcome(name, argument, place, folder):
 
 def cases():
     """(function, argument) of all."""
-    fe = api_calls.scene('between')
-    return [(name, argument) for name, one in forms.forms(fe, '/', (None, None)).items() for argument in one]
+    known = api_calls.calls(api_calls.scene('between'), '/')
+    return [(name, argument) for name, (_, groups, _) in known.items() for argument in groups]
 
 
 @pytest.fixture(autouse=True)
@@ -115,32 +97,38 @@ everyArgument = pytest.mark.parametrize('name, argument', cases(), ids=lambda v:
 @everyArgument
 def test_everyFormIsAccepted(name, argument, folder):
     folder += '/own'
-    sizes = [len(group) for group in made(name, folder)[3][argument]]
+    sizes = [len(group) for group in made(name, folder)[2][argument]]
     for group, size in enumerate(sizes):
         first = outcome(name, argument, (group, 0), folder)
         for k in range(1, size):
             assert outcome(name, argument, (group, k), folder) == first, 'form %d of group %d' % (k, group)
 
 
+# Their sentence names another argument, or what is in the value.
+kOtherSentence = [('readOutline', 'layers'), ('animate', 'field'), ('plotFracture', 'picture'), ('tradeoff', 'reference'),
+                  ('severalFields', 'fields'), ('addMesh', 'mesh'), ('tradeoff', 'vary'), ('plotFragmentSizes', 'components'), ('runSteps', 'every'),
+                  ('rotate', 'nodes'), ('reaction', 'nodes')]
+
+
 @everyArgument
 def test_whatIsNoFormIsRefused(name, argument, folder):
-    fe, call, right, groups = made(name, folder + '/own')
-    hasNone = any(form is None for group in groups[argument] for form in group)
-    for wrong in forms.WRONG + [None] * (not hasNone):
-        before = api_calls.state(fe)
+    """With one sentence that names argument and value; nothing changes."""
+    fe, call, groups, right = made(name, folder + '/own')
+    before = api_calls.state(fe)
+    for wrong in forms.others(groups[argument]):
         with pytest.raises((ValueError, TypeError, RuntimeError, OSError)) as error:
             call(**{**right, argument: wrong})
-        assert not api_calls.whatIsWrong(error.value) and api_calls.state(fe) == before, \
-            '%s=%s: %s' % (argument, shown(wrong), error.value)
+        text, named = str(error.value), '%s is %s' % (argument, shown(wrong))
+        assert not api_calls.whatIsWrong(error.value) and api_calls.state(fe) == before, (named, text)
+        assert named in text or re.search(r'\b%s\S* (has|must|is) ' % argument, text) or (name, argument) in kOtherSentence, (named, text)
 
 
 def test_everyArgumentHasForms():
-    fe = api_calls.scene('between')
-    table = forms.forms(fe, '/', (None, None))
-    for variant, (function, *_) in kVariants.items():
-        table.setdefault(function, {}).update(table[variant])
+    table = {name: set(groups) for name, (_, groups, _) in api_calls.calls(api_calls.scene('between'), '/').items()}
+    for variant, function in forms.VARIANTS.items():
+        table[function] |= table[variant]
     bodies = {argument for name in table if name.startswith('add') for argument in table[name]}
-    # Of attributes, updateAttrs among them, see test_calls.py.
+    # Of attributes, updateAttrs among them: test_refused_values.py.
     methods = [name for name in vars(w.FESolver) if name[0] != '_' and name != 'updateAttrs' and callable(getattr(w.FESolver, name))]
     missing = []
     for name in api_calls.ownFunctions() + methods:

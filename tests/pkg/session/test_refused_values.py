@@ -1,6 +1,5 @@
-"""What is refused, as in test_refused.py: constants of materials, curves, what a body is added with, and calls of
-functions and methods for bodies that are there; and what selects nothing. The patterns are those of `re`."""
-import math
+"""What is refused, as in test_refused.py: constants of materials, curves, attributes, scenes and steps; and what selects
+nothing. The patterns are those of `re`."""
 import re
 import warnings
 
@@ -8,11 +7,9 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import FAILS, fe, finder, heard, O, run, STEEL, steps
-from test_refused import added, sentenceOf
+from fe_scene import FAILS, fe, finder, heard, impact, O, run, STEEL, steps
+from test_refused import added, HUGE, INF, NAN, sentenceOf
 from yade import wrapper as w
-
-INF, NAN = math.inf, math.nan
 
 # --- constants of materials: {what: (class, constants that are accepted, [(wrong ones, sentence)])}
 
@@ -139,196 +136,145 @@ def test_curves(attribute, cls, kind, rows):
         assert getattr(material, attribute) == former == getattr(cls(), attribute)
 
 
-# --- what a body is added with, beside another one
+# --- a scene in which a body cannot be
 
-JOINT = [((1.03, .45), (1.07, .45))]
-MIXED = dict(material=lambda x, y: 'hard' if x < 1.05 else 'soft')
-
-
-def brittle(argument, value, sentence):
-    return {'material': 'hard', argument: value}, '^' + argument + sentence
-
-
-ADDED = [
-    # Several materials.
-    (dict(material=lambda x, y: 'none'), r"material\(.*is 'none', which is not in O.materials"),
-    (dict(material=lambda x, y: None), r'material\(.*is None, it must be an FEMat'),
-    (dict(material=['hard']), 'material has 1 values, it must have one for each of the'),
-    (dict(material=(['hard'], [1])), r'material\[1\] must be an array of whole numbers from 0 to 0'),
-    (dict(MIXED, element='smoothed'), "element is 'smoothed', but the body has several"),
-    (dict(material='hard', interfaceStrength=1), 'interfaceStrength is given, but the body has one'),
-    (dict(MIXED, interfaceStrength=-1), 'interfaceStrength is -1, it must be 0 or a pos'),
-    (dict(MIXED, interfaceStrength='x'), "interfaceStrength is 'x', it must be None"),
-    (dict(MIXED, interfaceEnergy=lambda x, y: -1), r'interfaceEnergy\(.*is -1, it must'),
-    (dict(MIXED, interfaceStrength={'hard': 1}), 'a key of interfaceStrength is'),
-    (dict(MIXED, interfaceStrength={('hard', 'x'): 1}), "is 'x', which is not in O.mat"),
-    (dict(MIXED, interfaceStrength={('hard', 'soft'): 'x'}), r"interfaceStrength\[.*is 'x', it must be 0 or .*, or None"),
-    (dict(material=lambda x, y: 'yields' if x < 1.05 else 'm'), 'several materials, one of which yields'),
-    # Strength and energy by place, where the material has none, too.
-    *[brittle(name, value, sentence) for name in ('strength', 'fractureEnergy') for value, sentence in (
-        (lambda x, y: -1, ' is -1 .*; it must be'), (lambda x, y: NAN, ' is nan .*; it must be'),
-        (lambda x, y: 'hard', r"\(.*is 'hard', it must be"), ([1., 2.], ' has 2 values, but the mesh has'),
-        (1e6, ' is 1000000.0, it must be None, a function'), ([[1.]], r' is \[\[1.0\]\], it must be None, a function'),
-        ('weak', " is 'weak', it must be None, a function"))],
-    *[({'material': 'yields', name: lambda x, y: 1}, 'are given, but the material neither cracks nor fails; it must be a '
-       'BrittleFEMat, or') for name in ('strength', 'fractureEnergy')],
-    (dict(material='spalls', fractureEnergy=lambda x, y: 0),
-     'fractureEnergy is 0 J/m²; it must be positive for every triangle'),
-    (dict(material='fails', selfContact=False), 'selfContact is False'),
-    (dict(material='hard', selfContact=False), 'selfContact is False, but the material is a Brittle'),
-    # Joints.
-    *[(dict(material='hard', joints=JOINT) | more, sentence) for more, sentence in (
-        (dict(joints=3), 'joints is 3, it must be a list of pairs of points'),
-        (dict(joints=[(0, 0)]), r'joints\[0\]\[0\] is 0, it must be a pair of numbers'),
-        (dict(joints=[((0, 0), (1, 1), (2, 2))]), r'joints\[0\] is .*, it must be a pair of points'),
-        (dict(joints=[((0, 0), (1, NAN))]), r'joints\[0\]\[1\] is .*, both numbers must be finite'),
-        (dict(joints=[((5, 5), (6, 6))]), r'joints\[0\] from .* must run inside the outline'),
-        (dict(joints=[((1.05, .45), (1.05, .45))]), r'joints\[0\] .* must have two different ends'),
-        (dict(jointStrength=-1), 'jointStrength is -1 Pa; it must be 0 or positive'),
-        (dict(jointStrength=[1, 2]), 'jointStrength has 2 values, it must have one for each of the 1'),
-        (dict(jointStrength=[NAN]), r'jointStrength\[0\] is nan, it must be a finite number, or None'),
-        (dict(jointEnergy='much'), "jointEnergy is 'much', it must be a number"),
-        (dict(material='m'), 'joints are given, but the material neither cracks nor fails; it must be a BrittleFEMat'),
-        (dict(material='fails', jointStrength=0), 'joints are given, but .* it must be a BrittleFEMat'))],
-    # Outline and mesh.
-    (dict(snap=-1), 'snap is -1, it must be 0, a positive number'), (dict(snap='x'), "snap is 'x', it must be"),
-    (dict(snap=.1, displacement=lambda x, y: (0, 0)), 'snap and displacement are both given'),
-    (dict(snap=2.), 'would collapse; it must be less than half its width'),
-    (dict(mesh=True), 'mesh is True'), (dict(meshSeed=-1), 'meshSeed is -1, it must be a whole number'),
-    (dict(meshSeed=1.5), 'meshSeed is 1.5'), (dict(meshSeed=True), 'meshSeed is True'),
-    (dict(size=lambda x, y: 0), r'size\(1, 0.4\) is 0, it must be a positive number'),
-    (dict(size=lambda x, y: NAN), r'size\(1, 0.4\) is nan'), (dict(size=lambda x, y: 'fine'), r"size\(1, 0.4\) is 'fine'"),
-    (dict(size='fine'), r"size is 'fine', it must be a positive number \(m\) or a function"),
-    # Initial stress.
-    *[(dict(stress=stress), '^stress is .*three or four finite numbers')
-      for stress in (3, (1, 2), (1, NAN, 2), (1, 2, 3, INF))],
-    (dict(stress='high'), "^stress is 'high'"),
-    (dict(stress=np.zeros((2, 3))), r'^stress has the shape \(2, 3\), it must be \(\d+, 3\)'),
-    (dict(stress=lambda x, y: (x, y)), r'^stress\(.*three or four finite numbers'),
-    (dict(stress=(9e7, 0, 0)), r'^stress at \(.* m is \(9e\+07, 0, 0\) Pa, .*strained by more than half'),
-    (dict(stress=(1, 0, 0), displacement=lambda x, y: (0, 0)), 'only one of them can be'),
-    *[(dict(name=name), 'name') for name in ('first', '', 'a\nb', 3)],
-]
+def test_scenes():
+    O.periodic = True
+    assert 'periodic' in sentenceOf(lambda: added(fe()))
+    O.reset()
+    assert 'is lost in the rounding of coordinates' in sentenceOf(lambda: added(fe(), 1e14))
+    O.reset()
+    impact('LebesgueCollider')
+    assert 'another FESolver' in sentenceOf(lambda: added(w.FESolver()))
 
 
-def test_added():
-    solver = fe()
-    for label in ('hard', 'soft'):
-        O.materials.append(w.BrittleFEMat(young=2e9, poisson=.2, density=1000, tensileStrength=2e7, label=label))
-    for label, more in (('yields', {}), ('fails', FAILS), ('spalls', dict(spallStress=3e9, fractureEnergy=1e4))):
-        O.materials.append(w.PlasticFEMat(**STEEL, **more, label=label))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', name='first')
-    before = len(O.bodies), len(solver.nodes)
-    for wrong, sentence in ADDED:
-        text = sentenceOf(lambda: solver.addPolygon(  # noqa: B023
-            yadefrag.rectangle((1, .4), (1.1, .5)), **{**dict(size=.01, material='m'), **wrong}), ValueError)  # noqa: B023
-        assert re.search(sentence, text), (wrong, text)
-        assert (len(O.bodies), len(solver.nodes)) == before, wrong
+@pytest.mark.parametrize('isLoaded', [False, True])
+def test_aSolverOfAnotherScene(isLoaded):
+    """Also if the other scene is a saved state of the same one, with bodies of the same numbers."""
+    made = impact('LebesgueCollider')
+    O.step()
+    O.saveTmp()
+    O.reset()
+    O.materials.append(w.FEMat(label='m'))
+    if isLoaded:
+        O.loadTmp()
+    count = len(O.bodies)
+    for call in (lambda: added(made), lambda: made.removeBody(0)):
+        with pytest.raises(RuntimeError, match='O.reset, .* this scene needs a new FESolver'):
+            call()
+    assert len(O.bodies) == count
+    assert isLoaded or added(w.FESolver()) == 0
 
 
-# --- calls
-
-def square(left):
-    return yadefrag.rectangle((left, 0), (left + 1, 1))
-
-
-def everywhere(x, y):
-    return True
+def test_filesThatCannotBeOpenedAreNamed():
+    made = impact()
+    for call in (lambda: yadefrag.readPolygon('/nowhere/x'), lambda: yadefrag.plotMesh(made, file='/nowhere/x.png'),
+                 lambda: yadefrag.exportVTK(made, '/nowhere/x.vtu')):
+        with pytest.raises(FileNotFoundError, match='/nowhere/x'):
+            call()
 
 
-TOUCHING = [[(0, 0), (1, 0), (1, 1)], [(1, 0), (1.01, 0), (1, .01)]]
-JOINTS = [((5.2, .2), (5.8, .7)), ((5.1, .9), (5.9, .1)), ((5.5, -1), (5.5, .3))]
-CALLS = [
-    # Loads and motions.
-    (lambda fe: fe.pressure([0], 1), 'No side of the boundary'), (lambda fe: fe.pressure([99], 1), 'there are'),
-    (lambda fe: fe.pressure(everywhere, 'high'), "p is 'high'"), (lambda fe: fe.pressure(everywhere, INF), 'p is inf'),
-    (lambda fe: fe.pressure(everywhere, [(1, 0), (0, 0)]), 'times of a pressure must ascend'),
-    (lambda fe: fe.absorb([0]), 'No side of the boundary'), (lambda fe: fe.absorb('rim'), "component is 'rim'"),
-    (lambda fe: fe.relax(0), 'tolerance is 0'), (lambda fe: fe.relax(most=0), 'most is 0'),
-    (lambda fe: setattr(fe, 'loads', np.zeros((3, 2))), '3 loads'),
-    (lambda fe: setattr(fe, 'loads', np.zeros(3)), r'must be \(n, 2\)'),
-    (lambda fe: setattr(fe, 'loads', np.full_like(fe.loads, INF)), 'not finite'),
-    (lambda fe: fe.prescribe([99999], vx=0), 'there are'), (lambda fe: fe.prescribe([True], vx=0), 'one for each'),
-    (lambda fe: fe.prescribe([0.5], vx=0), 'node numbers'), (lambda fe: fe.prescribe([0], vx='fast'), "vx is 'fast'"),
-    (lambda fe: fe.prescribe([0], vy=NAN), 'vy is nan'),
-    (lambda fe: fe.prescribe([0, 1], vx=[1., 2., 3.]), 'vx has 3 values, it must have one for each of the 2'),
-    (lambda fe: fe.prescribe([0], vx=[(0, 1), (0, 2)]), 'times of a motion must ascend'),
-    (lambda fe: fe.prescribe([0], vx=[(0, NAN)]), 'must be finite|its values be finite'),
-    (lambda fe: fe.prescribe([0, 1], vx=[1., 2.], vy=[(0, 1)]), 'vx is an array, but the other'),
-    (lambda fe: fe.prescribe('anvil', vx=1), "component is 'anvil', it must be the number or the name"),
-    (lambda fe: fe.rotate(7, 1, (0, 0)), 'component is 7, which is no body'),
-    (lambda fe: fe.rotate([0], 'fast', (0, 0)), "omega is 'fast'"),
-    (lambda fe: fe.rotate([0], 1, 'here'), "centre is 'here'"),
-    (lambda fe: fe.rotate([99], 1, (0, 0)), 'there are'), (lambda fe: yadefrag.runSteps(0), 'steps is 0'),
-    (lambda fe: yadefrag.runSteps(10, every=5, call=3), 'call is 3'),
-    # Queries.
-    (lambda fe: fe.nodesOf('anvil'), "component is 'anvil'"), (lambda fe: fe.nodesOf(1.5), 'component is 1.5'),
-    (lambda fe: fe.removeBody('anvil'), "component is 'anvil'"), (lambda fe: fe.reaction('anvil'), "component is 'anvil'"),
-    (lambda fe: fe.reaction([99]), 'but there are'), (lambda fe: fe.contactForce(0, 9), 'b is 9, which is no body'),
-    (lambda fe: fe.contactForce('anvil'), "a is 'anvil', it must be the number or the name"),
-    (lambda fe: yadefrag.crackTable(3), 'fe is 3, it must be an FESolver'),
-    (lambda fe: fe.meshQuality(), 'component is None, but there are 2 bodies'),
-    *[(lambda fe, wrong=wrong: fe.meshQuality(wrong), r'component is %r.*one of \[0, 1\]' % wrong)
-      for wrong in (3, -1, True, 1.5)],
-    (lambda fe: fe.meshQuality('block'), "component is 'block'.*no body has a name"),
-    # Bonds.
-    (lambda fe: fe.bond(0, 1, strength=0, energy=1), 'strength is 0, it must be a positive number'),
-    (lambda fe: fe.bond(0, 1, strength=1, energy=-1), 'energy is -1, it must be a positive number'),
-    (lambda fe: fe.bond(0, 'x', 1, 1), "b is 'x', it must be the number or the name of a body"),
-    (lambda fe: fe.bond(0, 2, 1, 1), 'There is no body 2 to bond'),
-    (lambda fe: fe.bond(1, 1, 1, 1), 'cannot be bonded to itself'),
-    (lambda fe: yadefrag.snapOutlines(3, 1.), 'shapes is 3, it must be a list of outlines'),
-    (lambda fe: yadefrag.snapOutlines([[(0, 0), (1, 0)]], 1.), r'shapes\[0\]'),
-    (lambda fe: yadefrag.snapOutlines(TOUCHING[:1], 0), 'tolerance is 0, it must be a positive number'),
-    (lambda fe: yadefrag.snapOutlines(TOUCHING, .1), 'would collapse'),
-    # Meshes.
-    (lambda fe: fe.addMesh(3, 'm'), r'mesh is 3, it must be a Mesh, the MeshFile of readMesh, or a pair'),
-    (lambda fe: fe.addMesh((1, 2, 3), 'm'), r'it must be a Mesh'),
-    (lambda fe: fe.addMesh((square(5), [(0, 1, 4)]), 'm'), 'triangles has node numbers from 0 to 4'),
-    (lambda fe: fe.addMesh((square(5), [(0, 1, 2)]), 'm'), 'node 3 belongs to no triangle'),
-    (lambda fe: fe.addMesh((square(5), [(0, 2, 1), (0, 1, 3)]), 'm'), '(?i)triangle'),
-    (lambda fe: fe.addMesh(yadefrag.Mesh(square(5), [(0, 1, 2), (0, 2, 3)]), 'm', smooth=2), 'smooth is 2'),
-    (lambda fe: fe.addMesh(yadefrag.rectangleMesh((5, 0), (6, 1), 2, 2), 'none'), "material is 'none'"),
-    (lambda fe: fe.addMesh(yadefrag.polygonMesh(square(5), size=.4, joints=JOINTS), 'm'), 'joints are given, but the material'),
-    (lambda fe: fe.addMesh(yadefrag.polygonMesh(square(5), size=.4, joints=JOINTS), 'b', jointStrength=[1, 2]),
-     'jointStrength has 2 values, it must have one for each of the 3 joints'),
-    (lambda fe: yadefrag.polygonMesh(square(5), size=0), 'size is 0'),
-    (lambda fe: yadefrag.polygonMesh(square(5), size=.4, jointTolerance=-1), 'jointTolerance is -1'),
-    (lambda fe: yadefrag.polygonMesh(square(5), size=.4, mesh='fine'), "mesh is 'fine'"),
-    (lambda fe: yadefrag.Mesh(square(5), [(0, 1.5, 2)]), r'triangles must be an array \(m, 3\)'),
-    # The scene.
-    *[(lambda fe, name=name, value=value: yadefrag.engines(fe, spheres=True, gravity=(0, -1), **{name: value}),
-       '^%s is .* it must be None, or a class derived from ' % name) for name, value in (
-        ('loop', w.NewtonIntegrator), ('loop', 'CurveLoop'), ('integrator', w.InteractionLoop), ('integrator', 3),
-        ('collider', w.CurveLoop), ('collider', 'LebesgueCollider'))],
-    *[(lambda fe, wrong=wrong: yadefrag.engines(**{'fe': fe, **wrong}), '%s is ' % next(iter(wrong))) for wrong in (
-        dict(fe=3), dict(gravity='down'), dict(gravity=(0, 0, -9.81)), dict(gravity=(1,)), dict(spheres='many'),
-        dict(damping=10**400))],
-    *[(lambda fe, wrong=wrong: yadefrag.inCurveOrder([(0, 0, 0), wrong]), r'bodies\[1\]') for wrong in (
-        (1, 2), (1, 2, NAN), 'abc', 3, None, (1, 2, 3, 4), ((1, 2, INF), .1))],
-]
-
-
-def test_callsForBodies():
-    solver = fe()
-    O.materials.append(w.BrittleFEMat(young=5e9, poisson=.2, density=2000, tensileStrength=1e6, label='b'))
-    for left in (0, 1):
-        solver.addPolygon(square(left), size=.5, material='m')
-    run(solver)
-
-    def state():
-        return (solver.nodes.tobytes(), solver.velocities.tobytes(), solver.loads.tobytes(), repr(solver.energy),
-                len(O.bodies), tuple(solver.gravity), solver.takesGravity)
-
-    before = state()
-    for call, sentence in CALLS:
-        text = sentenceOf(lambda: call(solver), ValueError)  # noqa: B023
-        assert re.search(sentence, text), (sentence, text)
-        assert state() == before, text
-    assert tuple(solver.gravity) == (0, 0, 0) and solver.takesGravity and O.iter == 0
+def test_withoutBodies(folder):
+    made = w.FESolver()
+    O.engines, O.dt = [made], 1
     steps(2)
-    assert not solver.reactions.any() and solver.energy['external'] == solver.energy['damping'] == 0
-    assert solver.bond(0, 1, 1e6, 1e6) > 0
+    assert made.criticalTimeStep() == made.minAngle == INF
+    assert made.energy['total'] == 0 and made.fragments() == made.surfaces == []
+    assert made.nodes.shape == (0, 2) and len(yadefrag.fragmentTable(made)) == 0
+    made.prescribe(lambda x, y: True, vx=1)
+    for call in (lambda: yadefrag.plotMesh(made), lambda: made.prescribe([0], vx=1),
+                 lambda: yadefrag.animate(made, folder + '/a.gif', 2, 1),
+                 lambda: yadefrag.exportVTK(made, folder + '/a.vtu'),
+                 lambda: yadefrag.plotFragmentSizes(made), lambda: made.removeBody(0),
+                 lambda: setattr(made, 'loads', [(0, 1)])):
+        with pytest.raises(ValueError, match='no bod|no broken body|0 nodes'):
+            call()
+
+
+# --- attributes: value: sentence, by assignment, by constructor and by updateAttrs
+
+ATTRIBUTES = {
+    'passes': [(3, ''), (2.5, 'FESolver.passes is 2.5, it must be a whole number.'),
+               (10**30, 'FESolver.passes is 1000000000...00000000000, it must be closer to 0.')],
+    'contactTolerance': [
+        *[(wrong, 'FESolver.contactTolerance is %s, it must be ' % text) for wrong, text in (
+            ('rough', "'rough'"), (0, '0'), (-1e-3, '-0.001'), (.2, '0.2'), (NAN, 'nan'),
+            ('x' * 99, 'a text of 99 bytes'))],
+        *[(wrong, "%s, it must be 'fine', 'default', 'coarse' or a number." % (wrong,)) for wrong in ((1,), None)]],
+    'minFragmentArea': [(wrong, 'it must be positive') for wrong in (-1, NAN, INF)],
+    'maxCracks': [(-2, 'FESolver.maxCracks is -2')],
+    'halo': [(-.1, ''), (.6, ''), (NAN, ''), ('wide', "FESolver.halo is 'wide', it must be a number."),
+             (HUGE, 'FESolver.halo is 1000000000...00000000000, it must be a number.')],
+    'view': [('stress', "FESolver.view is 'stress', it must be 'component', 'fragment' or 'mises'.")],
+    'damping': [(-1, '')], 'linearViscosity': [(-1, ''), (1e160, 'FESolver.linearViscosity is 1e+160, it must be 0 or pos')],
+    'quadraticViscosity': [(-1, ''), (1e160, '')],
+    'gravity': [((NAN, 0, 0), ''), ((0, 0, -9.8), ''), ((0,), 'FESolver.gravity is (0,), it must be two or three numbers.')],
+    'dead': [('no', "FESolver.dead is 'no', it must be True or False."), (7, 'FESolver.dead is 7, it must be True or False.')],
+    'label': [(b'x', "FESolver.label is b'x', it must be a text."), (None, 'FESolver.label is None, it must be a text.')]}
+
+
+@pytest.mark.parametrize('name', ATTRIBUTES)
+def test_attributes(name):
+    made = w.FESolver(ompThreads=2)
+    before = repr(made.dict())
+    for value, sentence in ATTRIBUTES[name]:
+        for call in (lambda: setattr(made, name, value), lambda: w.FESolver(**{'ompThreads': 1, name: value}),  # noqa: B023
+                     lambda: made.updateAttrs({'ompThreads': 1, name: value})):  # noqa: B023
+            text = sentenceOf(call)
+            assert text.startswith('FESolver.%s is ' % name) and sentence in text
+            assert repr(made.dict()) == before
+
+
+def test_namesThatDoNotExist():
+    for make, sentence in ((lambda: w.FESolver(pases=2), "FESolver has no attribute 'pases', but passes."),
+                           (lambda: w.FEMat(yuong=1), "FEMat has no attribute 'yuong', but young.")):
+        assert sentenceOf(make, AttributeError) == sentence
+    made = w.FESolver()
+    for wrong in ({'halo': -1}, {'nope': 1}, {'halo': 'a'}, {'dampng': 3}):
+        with pytest.raises((ValueError, TypeError, AttributeError)):
+            made.updateAttrs({'passes': 2, **wrong})
+        assert made.passes == 1
+    with pytest.warns(UserWarning, match="^FESolver has no attribute 'dampng', but damping: it is stored, but has no"):
+        made.dampng = 3
+    with pytest.warns(UserWarning, match="^FESolver has no attribute 'x': it is stored"):
+        made.x = 3
+    with warnings.catch_warnings(action='error'):
+        made.damping, made.label, made.dead = 3, 'fe', False
+
+
+def test_aColliderNeedsADispatcher():
+    for call in (lambda: w.LebesgueCollider(boundDispatcher=None),
+                 lambda: w.LebesgueCollider().updateAttrs({'boundDispatcher': None})):
+        with pytest.raises((TypeError, AttributeError), match='boundDispatcher'):
+            call()
+
+
+# --- steps
+
+STEP = r'^O.dt: The time step is .* s, but must be above 0 and at most .* s, the critical step of the present mesh.$'
+SPOILED = {
+    **{'dt %s' % dt: (lambda s, dt=dt: setattr(O, 'dt', dt), STEP) for dt in (0, NAN, INF, 1)},
+    'a little above': (lambda s: setattr(O, 'dt', 1.01 * s.criticalTimeStep()), STEP),
+    'twice': (lambda s: setattr(O, 'engines', [*O.engines, s]), 'same FESolver more than once'),
+    'periodic': (lambda s: setattr(O, 'periodic', True), 'periodic'),
+    'position': (lambda s: setattr(O.bodies[3].state, 'pos', (NAN, 0, 0)), 'Body #3 is at .*not finite'),
+    'gravity': (lambda s: setattr(s, 'gravity', (1e300, 0, 0)), 'leaves the range of numbers; loads, gravity or ')}
+
+
+@pytest.mark.parametrize('name', SPOILED)
+def test_steps(name):
+    made = impact('LebesgueCollider')
+    before, good = made.nodes, O.dt
+    spoil, sentence = SPOILED[name]
+    spoil(made)
+    with pytest.raises((ValueError, RuntimeError), match=sentence):
+        O.step()
+    assert np.abs(made.nodes - before).max() < 1e-15
+    if sentence is STEP:
+        with pytest.raises(RuntimeError, match=r'^The run stopped in step 0: O.dt: The time step is .* s, but must be'):
+            yadefrag.runSteps(3)
+        O.dt = good
+        assert yadefrag.runSteps(3) == 3
 
 
 # --- what selects nothing
@@ -365,7 +311,7 @@ def test_fixedThatSelectsNothingIsReportedBeforeTheRun(low):
     """Of several bodies it may select nothing of some, whichever of them it holds."""
     made = fe()
     for k in range(3):
-        added(made, (2 * k, 0), fixed=lambda x, y: 2 * low < x < 2 * low + .5)
+        added(made, 2 * k, fixed=lambda x, y: 2 * low < x < 2 * low + .5)
     run(made)
     assert told(O.step) == ([] if low == 2 else ['fixed selects none of the nodes of the bodies 0 to 2.'])
     assert not told(O.step)

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import (blow, brittleImpact, engines, FAILS, fe, finder, impact, O, plate, run, solverOfScene,
-                      throwBall, wallAndClump)
+from fe_scene import (blow, brittle as brittle_, brittleImpact, engines, FAILS, fe, finder, impact, O, plate, run, solverOfScene,
+                      splitting, STEEL, throwBall, wallAndClump)
 from yade import utils
 from yade import wrapper as w
 
 kArrays = ('nodes', 'velocities', 'masses', 'triangles', 'fragmentOf', 'stress', 'plasticStrain', 'temperature',
-           'damage')
+           'damage', 'stressZ', 'materialNumbers')
 kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'numActives', 'maxPenetration', 'dropped', 'warnings', 'time',
             'criticalTimeStep')
 
@@ -76,9 +76,22 @@ def bonded():
 
 def stressed():
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4),
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4, -5e4),
                       element='smoothed')
+    O.materials.append(w.PlasticFEMat(**STEEL, label='yields'))
+    solver.addPolygon(yadefrag.rectangle((2, 0), (3, 1)), size=.5, material='yields', stress=(-2e5, -1e5, 3e4, -4e5))
     run(solver)
+
+
+def byPlace():
+    """A bar of two materials, each triangle with a strength and an energy of its own, that is drawn."""
+    solver = fe(brittle_(label='b', young=1e9, poisson=0, fractureEnergy=1000))
+    O.materials.append(brittle_(label='soft', young=5e8, poisson=0, tensileStrength=10e6, fractureEnergy=500))
+    solver.addPolygon([(0, .02), (0, 0), (.1, 0), (.1, .02)], size=.004, material=lambda x, y: 'b' if x < .05 else 'soft',
+                      strength=lambda x, y: 5e6 if abs(x - .07) < .004 else 50e6, velocity=lambda x, y: (20 * x - 1, 0),
+                      fractureEnergy=lambda x, y: 60 if abs(x - .07) < .004 else 1000,
+                      fixed=lambda x, y: 'x' if x < 1e-9 or x > .1 - 1e-9 else False)
+    engines(solver, factor=.4)
 
 
 def driven():
@@ -108,6 +121,7 @@ def rigid():
     O.bodies.append([utils.wall(.5, axis=0), utils.box((-.3, .1, 0), (.1, .05, .5)),
                      utils.box((.05, .14, 0), (.03, .02, .5))])
     moving, free = O.bodies[-2], O.bodies[-1]
+    O.bodies.append(utils.tetra([(3, -1, 0), (3, -2, 0), (4, -1, 0), (3, -1, 1)], material='m'))
     moving.state.blockedDOFs, moving.state.vel = 'zXY', (2, 0, 0)
     free.state.blockedDOFs, free.state.vel = 'zXY', (1, -1, 0)
     run(solver)
@@ -129,10 +143,12 @@ kScenes = {
     'dropped': (dropped, 150, lambda fe: fe.dropped['count'] > 0),
     'bonded': (bonded, 40, lambda fe: fe.energy['fracture'] > 0),
     'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
+    'by place': (byPlace, 150, lambda fe: fe.numCracks > 0 and fe.energy['fracture'] > 0),
+    'gas in cracks': (splitting, 60, lambda fe: fe.numCracks > 0 and fe.energy['external'] > 0),
     'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
     'plastic': (plate, 100, lambda fe: fe.plasticStrain.max() > .01),
     'failure': (lambda: plate(weibullModulus=8, **FAILS), 100, lambda fe: fe.numCracks > 0),
-    'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0),
+    'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0 and any('Tetra' in one for one in fe.warnings)),
     'clump on cracks': (wallAndClump, 150, lambda fe: fe.numCracks > 0),
 }
 # YADE's loop changes the contacts of spheres before FESolver can refuse a step.
@@ -148,7 +164,7 @@ def refuse():
     piece = [b.id for b in O.bodies if b and isinstance(b.shape, w.SurfaceSegment)][-1]
     for force in ((math.inf, 0, 0), (0, math.nan, 0), (1e300, -1e300, 0), (1e12, 0, 0)):
         O.forces.setPermF(piece, force)
-        with pytest.raises(RuntimeError, match='Step .*(not finite|range of numbers|a node moves)'):
+        with pytest.raises(RuntimeError, match='Step .*(not finite|range of numbers|a (node|body) moves)'):
             O.step()
         O.forces.setPermF(piece, (0, 0, 0))
         assert differences(before, state()) == [], force

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from yadefrag.arguments import FESolver, File, Nodes, array, isWhole, path, plain, refuse, shown
+from yadefrag.arguments import FESolver, File, Nodes, array, path, refuse, shown
 from yadefrag.fe.contents import betweenSteps, existingBody, isBody, requireSolver
 from yadefrag.fe.motions import chosenNodes
 from yadefrag.files import writeColumns
@@ -201,18 +201,11 @@ def energy(self: FESolver) -> Energies:
     return Energies(self._energies)
 
 
-def _bodyOf(fe, component):
-    """The number of the body that `component` refers to; None: the only one."""
-    there = sorted(set(int(c) for c in fe.components))
-    if isinstance(component, str):
-        return existingBody(fe, component)
-    if component is None:
-        if len(there) != 1:
-            raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
-        return there[0]
-    if not isWhole(component) or plain(component) not in there:
-        refuse('component', component, 'the number of a body, one of %s' % there)
-    return int(component)
+def _onlyBody(fe):
+    there = numpy.unique(fe.components).tolist()
+    if len(there) != 1:
+        raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
+    return there[0]
 
 
 def meshQuality(self: FESolver, component: int | str | None = None) -> dict[str, Any]:
@@ -229,4 +222,4 @@ def meshQuality(self: FESolver, component: int | str | None = None) -> dict[str,
     """
     requireSolver(self)
     with betweenSteps(self):
-        return dict(self._meshQuality(_bodyOf(self, component)))
+        return dict(self._meshQuality(_onlyBody(self) if component is None else existingBody(self, component)))

@@ -8,7 +8,7 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
-from yadefrag.arguments import FEMat, Mesh, array, atPlaces, isWhole, number, pair, plain, real, refuse, shown
+from yadefrag.arguments import FEMat, Mesh, anyNumber, array, atPlaces, isWhole, number, pair, plain, real, refuse, shown
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 _UNITS = {'strength': 'Pa', 'fractureEnergy': 'J/m²', 'jointStrength': 'Pa', 'jointEnergy': 'J/m²',
@@ -28,8 +28,7 @@ def _ofTriangles(name, value, mesh):
     if value is None:
         return numpy.empty(0)
     if callable(value):
-        return numpy.array(atPlaces(name, value, centroids(mesh),
-                                    lambda at, one: number(at, one, lambda v: True, 'a number')))
+        return numpy.array(atPlaces(name, value, centroids(mesh), lambda at, one: anyNumber(at, one, _UNITS[name])))
     values = array(value)
     if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
         refuse(name, value, 'None, a function (x, y) that returns a number (%s), or an array of one for each '

@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 
 from yadefrag import _yadefrag
-from yadefrag.arguments import FESolver, Mesh, listOf, number, pointsOf, positive
+from yadefrag.arguments import FESolver, Mesh, anyNumber, listOf, number, pointsOf, positive
 from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
 from yadefrag.fe.mesh import Meshing, Outline
 from yadefrag.fe.mesh_values import isClockwise
@@ -248,7 +248,7 @@ def bond(self: FESolver, a: int | str, b: int | str, strength: float, energy: fl
     """
     requireBetweenSteps()
     first, second = (bodyNumber(self, one, name, least=0) for name, one in (('a', a), ('b', b)))
-    done = self._bond(first, second, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    done = self._bond(first, second, anyNumber('strength', strength, 'Pa'), anyNumber('energy', energy, 'J/m²'))
     for sentence in _tellings(done):
         warnOfOne('bond: ' + sentence, 'bonds', '%d-%d' % (first, second))
     return done.sides
@@ -268,7 +268,7 @@ def bondAll(self: FESolver, tolerance: float, strength: float, energy: float) ->
     requireBetweenSteps()
     tolerance = positive('tolerance', tolerance, 'm')
     _requireNear(self, tolerance)
-    done = self._bondAll(tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    done = self._bondAll(tolerance, anyNumber('strength', strength, 'Pa'), anyNumber('energy', energy, 'J/m²'))
     if not done.sides and not done.unmatched:
         raise ValueError('bondAll: no sides that are not bonded yet are within %g m of another body; '
                          'bodies to be bonded must touch.' % tolerance)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, flag, number, positive, real, refuse
+from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, anyNumber, flag, number, real, refuse
 from yadefrag.fe.contents import (betweenSteps, bodyNumber, componentOf, newName, nodesOf, requireBetweenSteps,
                                   shownTriangles)
 from yadefrag.fe.fields import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
@@ -124,7 +124,7 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocit
     nodes = mesh.nodes
     spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
     selfContact = flag('selfContact', selfContact)
-    thickness = positive('thickness', thickness, 'm')
+    thickness = anyNumber('thickness', thickness, 'm')
     if fe.axisymmetric:
         _requireRound(spin, thickness)
     moved = field('displacement', displacement, nodes)
