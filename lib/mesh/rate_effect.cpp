@@ -63,8 +63,6 @@ double RateEffect::largest() const {
   return points_.empty() ? 1 : std::ranges::max_element(points_, {}, &RatePoint::factor)->factor;
 }
 
-std::span<const std::string_view> rateEffectNames() { return kNames; }
-
 RateEffect rateEffectNamed(std::string_view name) {
   if (name == "none") return {};
   if (name == "ceb-fip-2010")

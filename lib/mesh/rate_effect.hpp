@@ -46,7 +46,4 @@ class RateEffect {
 ///                 one is valid there.
 [[nodiscard]] RateEffect rateEffectNamed(std::string_view name);
 
-/// All names, for messages.
-[[nodiscard]] std::span<const std::string_view> rateEffectNames();
-
 }  // namespace yadefrag

@@ -50,7 +50,7 @@ void JointNetwork::join() {
   addCrossings();
   startChains();
   for (int round = 0; round < tolerance::kJointRounds; ++round)
-    if (!bend() && !closeWedges()) return;
+    if (!bend()) return;
 }
 
 double JointNetwork::reachAt(Vec2 p) const {
@@ -213,47 +213,6 @@ void JointNetwork::meet(Side a, Side b, bool isEdge) {
   const std::uint32_t point = pointAt(*p);
   if (point != a.first && point != a.second) insertions_[a].insert(point);
   if (!isEdge && point != b.first && point != b.second) insertions_[b].insert(point);
-}
-
-/// Two sides that leave a point at so small an angle that nodes on them are nearer than the
-/// tolerance run together as far as that. False if there are none.
-bool JointNetwork::closeWedges() {
-  const std::vector<Side> fixed = edgeSides(), own = chainSides();
-  const std::set<Side> isFixed(fixed.begin(), fixed.end());
-  std::vector<std::vector<Side>> at(points_.size());  // edges first
-  for (const std::vector<Side>* sides : {&fixed, &own})
-    for (const Side& side : *sides)
-      for (const std::uint32_t end : {side.first, side.second}) at[end].push_back(side);
-  for (std::uint32_t point = 0; point < at.size(); ++point) {
-    std::vector<Side>& sides = at[point];
-    const auto wayOf = [&](Side side) {
-      return points_[side.first == point ? side.second : side.first] - points_[point];
-    };
-    for (std::size_t i = 0; i < sides.size(); ++i)
-      for (std::size_t k = i + 1; k < sides.size(); ++k) {
-        if (isFixed.contains(sides[k]) || sides[i] == sides[k]) continue;
-        const Vec2 a = wayOf(sides[i]), b = wayOf(sides[k]);
-        const double angle = std::atan2(std::abs(cross(a, b)), dot(a, b));
-        const double size = size_.at(points_[point]), reach = reachAt(points_[point]);
-        const double shorter = std::min(norm(a), norm(b));
-        if (angle * size >= reach || shorter <= 1.5 * size) continue;
-        const double steps =
-            std::min(std::floor(reach / (angle * size)), std::floor(shorter / size - .5));
-        if (steps < 1) continue;
-        // One point on the side that stays, and one where the other side returns to its line.
-        const std::uint32_t common = pointAt(points_[point] + (steps * size / norm(a)) * a);
-        if (common == point) continue;
-        const auto insert = [&](Side side, std::uint32_t p) {
-          if (p != side.first && p != side.second) insertions_[side].insert(p);
-        };
-        if (!isFixed.contains(sides[i])) insert(sides[i], common);
-        insert(sides[k], common);
-        if ((steps + 1.5) * size < norm(b))
-          insert(sides[k], pointAt(points_[point] + ((steps + 1) * size / norm(b)) * b));
-        count(points_[point] + (steps * size / norm(b)) * b, common);
-      }
-  }
-  return applyInsertions();
 }
 
 /// Inserts points into chains, in their order along each side. A chain that returns to a point is

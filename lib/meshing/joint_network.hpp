@@ -68,7 +68,6 @@ class JointNetwork {
   bool bend();
   void meet(Side a, Side b, bool isEdge);
   void pass(Side side, std::uint32_t point);
-  bool closeWedges();
   bool applyInsertions();
 
   const SizeField& size_;

@@ -66,7 +66,6 @@ class CrackContacts {
   /// nearest piece along the boundary that does, so that they continue its contact if the sphere
   /// moves on to them. When a sphere has separated from all pieces, its values are removed.
   void follow(const yade::Scene& scene, const World& world, const EntryBodies& bodies);
-  void clear() { spheres_.clear(), pieces_.clear(); }
 
   void archive(AnyArchive& archive) {
     archive.item("crackSpheres", spheres_);
