@@ -157,7 +157,8 @@ def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
 
 
 @pytest.mark.parametrize('name, module, package', [
-    ('a.svg', 'svgelements', 'python3-svgelements'), ('a.dxf', 'ezdxf', 'python3-ezdxf'),
+    ('a.svg', 'svgelements', 'python3-svgelements'), ('a.svg', 'cssselect2', 'python3-cssselect2'),
+    ('a.dxf', 'ezdxf', 'python3-ezdxf'),
     ('a.wkt', 'shapely.wkt', 'python3-shapely'), ('a.json', 'shapely.geometry', 'python3-shapely'),
     ('a.png', 'skimage.measure', 'python3-skimage'), ('a.png', 'PIL.Image', 'python3-pil')])
 def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
@@ -168,7 +169,7 @@ def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
 
 
 def test_importNeedsNoneOfTheLibraries(folder, monkeypatch):
-    for module in ('svgelements', 'ezdxf', 'shapely', 'skimage', 'PIL'):
+    for module in ('svgelements', 'cssselect2', 'ezdxf', 'shapely', 'skimage', 'PIL'):
         monkeypatch.setitem(sys.modules, module, None)
     assert readOutline(written(folder, 'a.csv', '0 0\n1 0\n1 1\n'))
 

@@ -63,8 +63,8 @@ def readOutline(file: File, tolerance: float | None = None, scale: float = 1, ga
     a hole is a separate outline, also if it fills the hole. What is drawn twice is read once. All are
     counter-clockwise lists of (x, y) in m. ValueError with
     the file for an unknown format, for lines that are not closed and for a missing tolerance;
-    ImportError with the name of Debian's package if a library is missing (svgelements, ezdxf,
-    shapely, scikit-image); OSError for a file that cannot be read.
+    ImportError with the name of Debian's package if a library is missing (svgelements,
+    cssselect2, ezdxf, shapely, scikit-image); OSError for a file that cannot be read.
     """
     found, leftOut = outlinesOf(file, tolerance, scale, gap, simplify, leastArea, layers, byLayer)
     if leftOut:
