@@ -159,10 +159,9 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
     points = numpy.concatenate(every)
     if not numpy.isfinite(points).all():
         raise ValueError('%s has points that are not finite.' % shownPath(name))
-    side = float((points.max(axis=0) - points.min(axis=0)).max())
-    gap = gap or _GAP * side or 1
+    gap = gap or _GAP * float(numpy.ptp(points, axis=0).max()) or 1
     try:
-        lines = [line for line, in _once([[line] for line in lines], gap, leftOut)]
+        lines = [line for line, in loops.withoutCopies([[line] for line in lines], gap, leftOut)]
         joined = loops.joined(lines, gap)
     except ValueError as error:
         words = leftOutWords(leftOut)
@@ -170,27 +169,18 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
                                        words and ' The file is read without: %s.' % words)) from None
     rings = [[loops.withoutDoubles(loops.closed(loop), gap) for loop in (outline, *holes)]
              for outline, holes in regions] + [[loops.closed(loop)] for loop in joined]
-    rings = [[ring[:-1] for ring in those] for those in _once(rings, gap, leftOut)]
-    every = [ring for those in rings for ring in those]
-    sizes = abs(loops.areas(every))
-    flat = (sizes <= _FLAT * loops.extents(every)**2) & (sizes >= leastArea)
-    if flat.any():
-        raise ValueError('%s has a loop without area at (%g, %g).' % (shownPath(name), *every[int(flat.argmax())][0]))
-    large = iter(sizes >= leastArea)
-    rings = [[(ring, next(large)) for ring in those] for those in rings]
-    regions = [(outline, [hole for hole, isLarge in holes if isLarge])
-               for (outline, isLarge), *holes in rings if isLarge]
+    rings = [[ring[:-1] for ring in those] for those in loops.withoutCopies(rings, gap, leftOut)]
+
+    def isLarge(ring):
+        size = abs(loops.area(ring))
+        if leastArea <= size <= _FLAT * numpy.ptp(ring, axis=0).max()**2:
+            raise ValueError('%s has a loop without area at (%g, %g).' % (shownPath(name), *ring[0]))
+        return size >= leastArea
+
+    regions = [(outline, list(filter(isLarge, holes))) for outline, *holes in rings if isLarge(outline)]
     if not regions:
         raise ValueError('%s has no closed line%s.' % (shownPath(name), ' around leastArea' if leastArea else ''))
     return loops.nested(regions, name)
-
-
-def _once(shapes, gap, leftOut):
-    """The shapes, lists of lines, without those that are drawn twice."""
-    shapes, copies = loops.withoutCopies(shapes, gap)
-    if copies:
-        leftOut['second copies of a line'] += copies
-    return shapes
 
 
 def _simplified(name, argument, distance, outline, holes):
