@@ -23,7 +23,6 @@ _FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line
 _READERS: dict[str, Callable] = {
     '.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt, '.json': plain.readGeoJson,
     '.geojson': plain.readGeoJson, **{ending: plain.readPicture for ending in plain.ENDINGS}}
-_MOST_PIECES = 1000  # of one side
 _WORKS = 'outlineReport works'
 
 
@@ -281,20 +280,12 @@ def _narrowest(loops):
     most = min(distances(own, numpy.roll(own, -shift)).min() for own in numbers for shift in (1, 2, 3))
     if most == math.inf:
         return most, tuple(starts[0].tolist())
-    # Pieces, because the box of a long oblique side would contain many corners.
-    lengths = numpy.hypot(*(ends - starts).T)
-    counts = numpy.clip(lengths / lengths.mean(), 1, _MOST_PIECES).astype(int)
-    owners = numpy.repeat(numpy.arange(len(starts)), counts)
-    place = (numpy.arange(len(owners)) - numpy.repeat(numpy.cumsum(counts) - counts, counts))[:, None]
-    step = ((ends - starts) / counts[:, None])[owners]
     shapes = shapely('geometry', _WORKS)
-    near = treeOf([shapes.LineString(piece) for piece in
-                   numpy.stack([starts[owners] + place * step, starts[owners] + (place + 1) * step], axis=1)],
-                  'query', _WORKS)
-    found = [near(shapes.box(x - most, y - most, x + most, y + most)) for x, y in starts.tolist()]
-    corners = numpy.repeat(numpy.arange(len(starts)), [len(those) for those in found])
-    every = distances(corners, owners[numpy.concatenate(found).astype(int)])
-    return float(every.min()), tuple(starts[corners[every.argmin()]].tolist())
+    near = treeOf([shapes.LineString(side) for side in numpy.stack([starts, ends], axis=1)], 'query', _WORKS)
+    found = [distances(i, numpy.asarray(near(shapes.box(x - most, y - most, x + most, y + most)), dtype=int)).min()
+             for i, (x, y) in enumerate(starts.tolist())]
+    best = int(numpy.argmin(found))
+    return float(found[best]), tuple(starts[best].tolist())
 
 
 def _words(report, size):
