@@ -174,7 +174,7 @@ def _polyline(entity, tolerance, name):
     for (x, y, z, bend), after in zip(corners, corners[1:] + corners[:1] * isClosed):
         if bend:
             requireTolerance(tolerance, name, 'has curves')
-            points += [(*place, z) for place in bulge((x, y), after[:2], bend, tolerance).tolist()]
+            points += [(a, b, z) for a, b in bulge((x, y), after[:2], bend, tolerance).tolist()]
         else:
             points.append(after[:3])
     # Mirrored entities have a coordinate system of their own.
