@@ -9,7 +9,6 @@ import math
 import os
 import re
 from collections.abc import Iterable
-from typing import Any
 
 import numpy
 

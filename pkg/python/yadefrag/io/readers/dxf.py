@@ -160,7 +160,8 @@ def _spline(entity, tolerance, name):
 
 def _polyline(entity, tolerance, name):
     if entity.dxftype() == 'LWPOLYLINE':
-        corners, isClosed = [(x, y, entity.dxf.elevation, bend) for x, y, bend in entity.get_points('xyb')], entity.closed
+        isClosed, height = entity.closed, entity.dxf.elevation
+        corners = [(x, y, height, bend) for x, y, bend in entity.get_points('xyb')]
     elif entity.is_2d_polyline or entity.is_3d_polyline:
         isFlat = entity.is_2d_polyline and entity.dxf.hasattr('elevation')
         corners = [(x, y, entity.dxf.elevation[2] if isFlat else z, v.dxf.get('bulge', 0)) for v in entity.vertices

@@ -246,7 +246,6 @@ class _Walk:
         radii = [one if one is not None else other or 0. for one, other in (radii, radii[::-1])]
         if tag == 'rect':
             width, height = length('width'), length('height')
-            radii = [min(radius, side / 2) for radius, side in zip(radii, (width, height))]
             return self.svg.Path(self.svg.Rect(length('x'), length('y'), width, height, *radii)) \
                 if width > 0 and height > 0 else None
         radii = [length('r')] * 2 if tag == 'circle' else radii
