@@ -50,7 +50,7 @@ string(JOIN ", " CPACK_DEBIAN_PACKAGE_DEPENDS
        "python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-meshio, python3-pil, python3-scipy, python3-shapely, python3-tqdm")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "python3-distributed, python3-ezdxf, python3-skimage, python3-svgelements")
+    "python3-cssselect2, python3-distributed, python3-ezdxf, python3-skimage, python3-svgelements")
 # Python's compiled files are created at the installation and removed with the package.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst
                                        ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)

@@ -1,6 +1,5 @@
-"""Outlines from SVG, GeoJSON, WKT and CSV: places, curves within the tolerance, holes; wrong files of all kinds. What
+"""Outlines from SVG and WKT: places, curves within the tolerance, holes; wrong files of all kinds. What
 the finest feature of an outline costs, before a mesh is made, beside the mesh's own step."""
-import json
 import math
 import sys
 import warnings
@@ -10,9 +9,8 @@ import pytest
 
 import yadefrag
 from fe_scene import fe, O
-from outline_files import area, corners, kSquare, offEllipse, offLine, svg, written
+from outline_files import area, corners, offEllipse, offLine, svg, written
 from yadefrag import outlineReport, readOutline
-from yadefrag.io.readers import loops
 
 kUnit = yadefrag.rectangle((0, 0), (1, 1))
 kShort = [(0, 0), (.5, 0), (.505, 0), (1, 0), (1, 1), (0, 1)]
@@ -75,41 +73,12 @@ def test_svgBezierCurves(folder, path, controls, tolerance):
     assert len(outline) < 4 / math.sqrt(tolerance) * 3
 
 
-def test_lettersTouchingNeighboursAreNotNested():
-    left, right = np.array(kSquare, dtype=float), np.array(kSquare) + (4., 0)
-    low = np.array([(0, -2), (8, -2), (8, 0), (0, 0)], dtype=float)
-    assert [len(holes) for _, holes in loops.nested([(loop, []) for loop in (left, right, low)], '')] == [0, 0, 0]
-
-
-def test_geoJson(folder):
-    ring = kSquare + kSquare[:1]
-    hole = [(1, 1), (1, 2), (2, 2), (2, 1), (1, 1)]
-    far = [(x + 10, y) for x, y in ring]
-    shapes = [dict(type='Polygon', coordinates=[ring, hole]),
-              dict(type='MultiPolygon', coordinates=[[far], [[(x + 10, y + 10) for x, y in ring]]]),
-              dict(type='Point', coordinates=(1, 1))]
-    features = [dict(type='Feature', properties={}, geometry=one) for one in shapes + [None]]
-    data = dict(type='FeatureCollection', features=features)
-    found = readOutline(written(folder, 'a.geojson', json.dumps(data)))
-    places = (0, 0), (10, 0), (10, 10)
-    assert [corners(o) for o, _ in found] == [[(x + a, y + b) for x, y in kSquare] for a, b in places]
-    assert [[corners(h) for h in holes] for _, holes in found] == [[[(1, 1), (2, 1), (2, 2), (1, 2)]], [], []]
-    alone = readOutline(written(folder, 'a.json', json.dumps(shapes[0])))
-    assert alone == found[:1]
-
-
 def test_wktAndLinesThatClose(folder):
     text = ('GEOMETRYCOLLECTION(LINESTRING(0 0, 4 0, 4 4), POLYGON((1 1, 2 1, 2 2, 1 2, 1 1)),'
             'LINESTRING(0 0, 0 4, 4 4), POINT(7 7))')
     (outline, (hole,)), = readOutline(written(folder, 'a.wkt', text), scale=2)
     assert corners(outline) == [(0, 0), (8, 0), (8, 8), (0, 8)]
     assert corners(hole) == [(2, 2), (4, 2), (4, 4), (2, 4)]
-
-
-def test_csv(folder):
-    text = 'x (mm); y (mm)\n# a square\n0; 0\n4; 0\n4; 4\n0; 4\n\n1 1\n1,2 # a corner\n2,2\n2,1\n1,1\n'
-    (outline, (hole,)), = readOutline(written(folder, 'a.csv', text))
-    assert corners(outline) == kSquare and corners(hole) == [(1, 1), (2, 1), (2, 2), (1, 2)]
 
 
 def test_whatIsReadGoesIntoAddPolygon(folder):
@@ -157,7 +126,8 @@ def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
 
 
 @pytest.mark.parametrize('name, module, package', [
-    ('a.svg', 'svgelements', 'python3-svgelements'), ('a.dxf', 'ezdxf', 'python3-ezdxf'),
+    ('a.svg', 'svgelements', 'python3-svgelements'), ('a.svg', 'cssselect2', 'python3-cssselect2'),
+    ('a.dxf', 'ezdxf', 'python3-ezdxf'),
     ('a.wkt', 'shapely.wkt', 'python3-shapely'), ('a.json', 'shapely.geometry', 'python3-shapely'),
     ('a.png', 'skimage.measure', 'python3-skimage'), ('a.png', 'PIL.Image', 'python3-pil')])
 def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
@@ -168,7 +138,7 @@ def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
 
 
 def test_importNeedsNoneOfTheLibraries(folder, monkeypatch):
-    for module in ('svgelements', 'ezdxf', 'shapely', 'skimage', 'PIL'):
+    for module in ('svgelements', 'cssselect2', 'ezdxf', 'shapely', 'skimage', 'PIL'):
         monkeypatch.setitem(sys.modules, module, None)
     assert readOutline(written(folder, 'a.csv', '0 0\n1 0\n1 1\n'))
 

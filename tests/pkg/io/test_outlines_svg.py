@@ -104,8 +104,11 @@ kConstructs = {
     'selectors': ('<style>/* no */ g > rect, #m  rect { visibility: hidden } svg>a *{fill:none}'
                   '@media print { rect { fill: none } }</style><g>' + kFar + '</g><g id="m"><a>' + kFar + '</a></g>' +
                   kBox % '', 3200, {'hidden shapes': 2}),
-    'unusual selector': ('<style>rect:hover, g[id="k"] + rect { fill: none }</style>' + kBox % '', 3200,
-                         {'style rules with an unusual selector': 2}),
+    'selectors of places and attributes': ('<style>rect:hover, rect::before { fill: none } g[id="k"] + rect, '
+                                           'g > :last-child { display: none }</style><g id="k">' + kFar + kFar +
+                                           '</g>' + kBox % '' + kBox % '', 3300, {'hidden shapes': 2}),
+    'unusual selector': ('<style>rect:nothing, rect { fill: none }</style>' + kBox % '', 3200,
+                         {'style rules with an unusual selector': 1}),
     'current colour': (kBox % ' fill="currentColor" color="red"', 3200, {}),
     'rule nonzero': ('<path d="M0 0H40V40H0z M10 10H20V20H10z"/>', 1600, {'inner lines that the fill covers': 1}),
     'rule nonzero, turned': ('<path d="M0 0H40V40H0z M10 10V20H20V10z"/>', 1500, {}),

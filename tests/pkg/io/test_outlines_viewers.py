@@ -23,6 +23,15 @@ def polygon(*rings):
     return dict(type='Polygon', coordinates=rings)
 
 
+def places(texts):
+    """The set of points of geometries, and of lists of them, that are no points alone."""
+    if isinstance(texts, dict):
+        return places(list(texts.values())) if texts.get('type') != 'Point' else set()
+    if isinstance(texts, (list, tuple)) and len(texts) == 2 and not isinstance(texts[0], (list, tuple, dict, str)):
+        return {tuple(texts)}
+    return set().union(*map(places, texts)) if isinstance(texts, (list, tuple)) else set()
+
+
 def feature(geometry):
     return dict(type='Feature', properties={}, geometry=geometry)
 
@@ -39,7 +48,8 @@ kMaps = {  # name: (texts, areas of the shapes without holes, words)
     'coverage, filler first': ([collection(kFiller, kFrame)], [4, 12], ''),
     'coverage, hole filled by two': ([collection(kFrame, polygon([(1, 1), (3, 1), (3, 2), (1, 2), (1, 1)]),
                                                  polygon([(1, 2), (3, 2), (3, 3), (1, 3), (1, 2)]))], [12, 2, 2], ''),
-    'neighbours': ([polygon(ring(4)), polygon(ring(4, (4, 0)))], [16, 16], ''),
+    'neighbours': ([polygon(ring(4)), polygon(ring(4, (4, 0))), polygon([(0, -2), (8, -2), (8, 0), (0, 0), (0, -2)])],
+                   [16, 16, 16], ''),
     'one a line': ([feature(polygon(ring(4))), feature(polygon(ring(2, (9, 0))))], [16, 4], ''),
     'list': ([[polygon(ring(4)), polygon(ring(2, (9, 0)))]], [16, 4], ''),
     'nested collections': ([feature(collection(collection(polygon(ring(4))), dict(type='Point', coordinates=(1, 1))))],
@@ -57,6 +67,7 @@ kMaps = {  # name: (texts, areas of the shapes without holes, words)
 @pytest.mark.parametrize('ending, between', [('geojson', '\n'), ('json', '\n\x1e'), ('wkt', '\n'), ('wkt', ';\r\n\n')])
 def test_maps(folder, name, ending, between):
     texts, areas, words = kMaps[name]
+    wanted = places(texts)
     if ending == 'wkt':
         from shapely.geometry import shape
         members = [one for text in texts for one in (text if isinstance(text, list) else text.get('features', [text]))]
@@ -67,6 +78,8 @@ def test_maps(folder, name, ending, between):
         texts = list(map(json.dumps, texts))
     found, told = read(written(folder, 'a.' + ending, between.join(texts)))
     assert [net([one]) for one in found] == pytest.approx(areas)
+    loops = [loop for outline, holes in found for loop in (outline, *holes)]
+    assert {point for loop in loops for point in loop} == wanted and all(area(loop) > 0 for loop in loops)
     assert words in told and bool(words) == bool(told)
 
 
@@ -82,7 +95,7 @@ kRows = ['0 0', '4 0', '4 4', '0 4']
 kTables = {  # first rows: (separator, number of loops) or a part of the error
     '': (' ', 1), 'x y': (',', 1), '# 1 2\nx, y (m)': (';', 1), 'x y z': ('\t', 1),
     '0 0 0': 'line 1', '1 2 3': 'line 1', '7': 'line 1', 'x 1': 'line 1', '1,5 3,5': 'line 1', 'x y\nx y': 'line 2',
-    '8 8\n9 8\n9 9\n\n': (' ', 2), 'x\n8 8\n9 8\n9 9\n\n\n': (', ', 2),
+    '8 8\n9 8 # a corner\n9; 9\n\n': (' ', 2), 'x\n8 8\n9 8\n9 9\n\n\n': (', ', 2),
 }
 
 

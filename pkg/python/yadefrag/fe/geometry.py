@@ -90,9 +90,8 @@ def simplified(points: numpy.ndarray, holes: list[numpy.ndarray], tolerance: flo
 
 
 def _check(name, loop, tolerance):
-    ends = numpy.roll(loop, -1, axis=0)
-    (x, y), (nextX, nextY) = (loop - loop[0]).T, (ends - loop[0]).T
-    most = abs((x * nextY - y * nextX).sum()) / 2 / numpy.hypot(*(ends - loop).T).sum()
+    shape = shapely('geometry', 'simplify works').Polygon(loop)
+    most = shape.area / shape.length
     if not tolerance < most:
         raise ValueError("simplify is %.4g m, but %s could vanish; it must be less than that loop's area over its "
                          'length, %.4g m.' % (tolerance, name, most))

@@ -6,7 +6,7 @@ import numpy
 
 from yadefrag.arguments import File, path, positive, shownPath
 from yadefrag.fe.mesh import MeshFile, cross
-from yadefrag.io.readers import Elements, abaqus, cornersOf, counted, gmsh, orderOf, refuseFile
+from yadefrag.io.readers import abaqus, cornersOf, counted, gmsh, orderOf, refuseFile
 from yadefrag.messages import warn
 
 _READERS = {'.msh': gmsh.read, '.inp': abaqus.read}

@@ -23,7 +23,6 @@ _FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line
 _READERS: dict[str, Callable] = {
     '.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt, '.json': plain.readGeoJson,
     '.geojson': plain.readGeoJson, **{ending: plain.readPicture for ending in plain.ENDINGS}}
-_MOST_PIECES = 1000  # of one side
 _WORKS = 'outlineReport works'
 
 
@@ -63,8 +62,8 @@ def readOutline(file: File, tolerance: float | None = None, scale: float = 1, ga
     a hole is a separate outline, also if it fills the hole. What is drawn twice is read once. All are
     counter-clockwise lists of (x, y) in m. ValueError with
     the file for an unknown format, for lines that are not closed and for a missing tolerance;
-    ImportError with the name of Debian's package if a library is missing (svgelements, ezdxf,
-    shapely, scikit-image); OSError for a file that cannot be read.
+    ImportError with the name of Debian's package if a library is missing (svgelements,
+    cssselect2, ezdxf, shapely, scikit-image); OSError for a file that cannot be read.
     """
     found, leftOut = outlinesOf(file, tolerance, scale, gap, simplify, leastArea, layers, byLayer)
     if leftOut:
@@ -159,10 +158,9 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
     points = numpy.concatenate(every)
     if not numpy.isfinite(points).all():
         raise ValueError('%s has points that are not finite.' % shownPath(name))
-    side = float((points.max(axis=0) - points.min(axis=0)).max())
-    gap = gap or _GAP * side or 1
+    gap = gap or _GAP * float(numpy.ptp(points, axis=0).max()) or 1
     try:
-        lines = [line for line, in _once([[line] for line in lines], gap, leftOut)]
+        lines = [line for line, in loops.withoutCopies([[line] for line in lines], gap, leftOut)]
         joined = loops.joined(lines, gap)
     except ValueError as error:
         words = leftOutWords(leftOut)
@@ -170,27 +168,18 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
                                        words and ' The file is read without: %s.' % words)) from None
     rings = [[loops.withoutDoubles(loops.closed(loop), gap) for loop in (outline, *holes)]
              for outline, holes in regions] + [[loops.closed(loop)] for loop in joined]
-    rings = [[ring[:-1] for ring in those] for those in _once(rings, gap, leftOut)]
-    every = [ring for those in rings for ring in those]
-    sizes = abs(loops.areas(every))
-    flat = (sizes <= _FLAT * loops.extents(every)**2) & (sizes >= leastArea)
-    if flat.any():
-        raise ValueError('%s has a loop without area at (%g, %g).' % (shownPath(name), *every[int(flat.argmax())][0]))
-    large = iter(sizes >= leastArea)
-    rings = [[(ring, next(large)) for ring in those] for those in rings]
-    regions = [(outline, [hole for hole, isLarge in holes if isLarge])
-               for (outline, isLarge), *holes in rings if isLarge]
+    rings = [[ring[:-1] for ring in those] for those in loops.withoutCopies(rings, gap, leftOut)]
+
+    def isLarge(ring):
+        size = abs(loops.area(ring))
+        if leastArea <= size <= _FLAT * numpy.ptp(ring, axis=0).max()**2:
+            raise ValueError('%s has a loop without area at (%g, %g).' % (shownPath(name), *ring[0]))
+        return size >= leastArea
+
+    regions = [(outline, list(filter(isLarge, holes))) for outline, *holes in rings if isLarge(outline)]
     if not regions:
         raise ValueError('%s has no closed line%s.' % (shownPath(name), ' around leastArea' if leastArea else ''))
     return loops.nested(regions, name)
-
-
-def _once(shapes, gap, leftOut):
-    """The shapes, lists of lines, without those that are drawn twice."""
-    shapes, copies = loops.withoutCopies(shapes, gap)
-    if copies:
-        leftOut['second copies of a line'] += copies
-    return shapes
 
 
 def _simplified(name, argument, distance, outline, holes):
@@ -291,20 +280,12 @@ def _narrowest(loops):
     most = min(distances(own, numpy.roll(own, -shift)).min() for own in numbers for shift in (1, 2, 3))
     if most == math.inf:
         return most, tuple(starts[0].tolist())
-    # Pieces, because the box of a long oblique side would contain many corners.
-    lengths = numpy.hypot(*(ends - starts).T)
-    counts = numpy.clip(lengths / lengths.mean(), 1, _MOST_PIECES).astype(int)
-    owners = numpy.repeat(numpy.arange(len(starts)), counts)
-    place = (numpy.arange(len(owners)) - numpy.repeat(numpy.cumsum(counts) - counts, counts))[:, None]
-    step = ((ends - starts) / counts[:, None])[owners]
     shapes = shapely('geometry', _WORKS)
-    near = treeOf([shapes.LineString(piece) for piece in
-                   numpy.stack([starts[owners] + place * step, starts[owners] + (place + 1) * step], axis=1)],
-                  'query', _WORKS)
-    found = [near(shapes.box(x - most, y - most, x + most, y + most)) for x, y in starts.tolist()]
-    corners = numpy.repeat(numpy.arange(len(starts)), [len(those) for those in found])
-    every = distances(corners, owners[numpy.concatenate(found).astype(int)])
-    return float(every.min()), tuple(starts[corners[every.argmin()]].tolist())
+    near = treeOf([shapes.LineString(side) for side in numpy.stack([starts, ends], axis=1)], 'query', _WORKS)
+    found = [distances(i, numpy.asarray(near(shapes.box(x - most, y - most, x + most, y + most)), dtype=int)).min()
+             for i, (x, y) in enumerate(starts.tolist())]
+    best = int(numpy.argmin(found))
+    return float(found[best]), tuple(starts[best].tolist())
 
 
 def _words(report, size):

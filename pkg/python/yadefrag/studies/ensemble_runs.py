@@ -4,9 +4,7 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-import numpy
-
-from yadefrag.arguments import File, isWhole, plain, refuse, shown, text, whole
+from yadefrag.arguments import File, isWhole, listOf, plain, refuse, shown, text, whole
 from yadefrag.messages import passOn
 from yadefrag.studies.ensemble_table import EnsembleRow, EnsembleTable
 from yadefrag.studies.runs import Finished, counted, jobOf, runAll
@@ -59,18 +57,17 @@ def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., 
 
 def _settings(runs):
     """List of checked dicts."""
-    runs = plain(runs)
+    runs, right = plain(runs), 'a number of runs, a list of seeds, a list of dicts or a dict of lists'
     if isWhole(runs):
         runs = range(whole('runs', runs, most=_MOST_RUNS))
     if isinstance(runs, dict):
-        columns = {name: _listOf(values) for name, values in runs.items()}
-        lengths = {None if values is None else len(values) for values in columns.values()}
-        if len(lengths) != 1 or None in lengths:
+        columns = [listOf('runs[%s]' % shown(name), values, 'a list of values') for name, values in runs.items()]
+        if len(set(map(len, columns))) != 1:
             refuse('runs', runs, 'a dict of lists that have all the same length')
-        runs = [dict(zip(columns, row)) for row in zip(*columns.values())]
-    rows = _listOf(runs)
-    if not rows or len(rows) > _MOST_RUNS:
-        refuse('runs', runs, 'a number of runs, a list of seeds, a list of dicts or a dict of lists')
+        runs = [dict(zip(runs, row)) for row in zip(*columns)]
+    rows = listOf('runs', runs, right)
+    if not 0 < len(rows) <= _MOST_RUNS:
+        refuse('runs', runs, right)
     return [_setting(row) for row in rows]
 
 
@@ -80,12 +77,6 @@ def _setting(row):
             raise ValueError('runs has the seed %s, it must be a whole number, or a dict.' % shown(row))
         row = dict(seed=row)
     return {name: checkChoice(name, value, 'runs', EnsembleRow) for name, value in row.items()}
-
-
-def _listOf(values):
-    if isinstance(values, (list, tuple, range)):
-        return list(values)
-    return list(values) if isinstance(values, numpy.ndarray) and values.ndim == 1 else None
 
 
 def _run(rows, job, finished, executor, workers):

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy
 
-from yadefrag.arguments import ArrayLike, File, array, path, plain, refuse, shown, shownPath, text, whole
+from yadefrag.arguments import ArrayLike, File, array, listOf, path, plain, refuse, shown, shownPath, text, whole
 from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
@@ -140,11 +140,9 @@ def _withReferences(settings, right, by):
 
 def _values(name, values):
     """The checked values of a choice; NumPy's numbers become Python's."""
-    if isinstance(values, numpy.ndarray):
-        values = list(values.flat)
-    if not isinstance(values, (list, tuple, range)) or not values:
-        raise ValueError('vary has %s for the choice %s, it must be a list of values.' % (shown(values), shown(name)))
-    return [checkChoice(name, value) for value in values]
+    what, right = 'vary[%s]' % shown(name), 'a list of values'
+    found = listOf(what, values, right) or refuse(what, values, right)
+    return [checkChoice(name, value) for value in found]
 
 
 def _reference(reference):

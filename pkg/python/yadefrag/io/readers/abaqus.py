@@ -9,7 +9,6 @@ import math
 import os
 import re
 from collections.abc import Iterable
-from typing import Any
 
 import numpy
 
@@ -25,30 +24,25 @@ _CHANGES = ('NGEN', 'NFILL', 'NCOPY', 'NMAP', 'ELGEN', 'ELCOPY', 'SYSTEM', 'PARA
 
 
 class Part:
-    """Nodes, elements and sets of a part, of the assembly, or of a file without parts."""
+    """Nodes, elements and sets of a part, of its instance, of the assembly, or of a file without parts."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self.nodes = {}  # {number: [x, y, z]}
-        self.elements = {}  # {number: (type, numbers of nodes)}
+    def __init__(self, name: str, part: Part | None = None) -> None:
+        """part: of which this is an instance, which has all it has and can have more."""
+        self.name, self.part = name, part or self
+        self.nodes: dict = dict(part.nodes) if part else {}  # {number: [x, y, z]}
+        self.elements: dict = dict(part.elements) if part else {}  # {number: (type, numbers of nodes)}
         self.sets = {'NSET': {}, 'ELSET': {}}  # {NAME: (name, [(part or instance, number)])}
+        self.moves = []  # up to two rows: a translation; two points of an axis and an angle (degrees)
+        for kind, sets in part.sets.items() if part else ():
+            for name, members in sets.values():
+                self.addSet(kind, name, [(self if owner is part else owner, number) for owner, number in members])
 
     def addSet(self, kind: str, name: str, members: Iterable[tuple[Part, int]]) -> None:
         self.sets[kind].setdefault(name.upper(), (name, []))[1].extend(members)
 
-
-class Instance(Part):
-    """A moved copy of a part, which can have further nodes, elements and sets."""
-
-    def __init__(self, name: str, part: Part) -> None:
-        super().__init__(name)
-        self.part = part
-        self.moves = []  # up to two rows: a translation; two points of an axis and an angle (degrees)
-
-
-def _all(owner: Part, what: str) -> dict[int, Any]:
-    """The `nodes` or `elements` of a part, or of an instance with those of its part."""
-    return {**getattr(getattr(owner, 'part', owner), what), **getattr(owner, what)}
+    def origin(self, kind: str, key: str) -> Part:
+        """The part or instance in which a set of this one is defined."""
+        return self.part if key in self.part.sets[kind] else self
 
 
 def nodesOf(type: str) -> int:
@@ -59,27 +53,48 @@ def nodesOf(type: str) -> int:
     return int(found[1]) if found else 0
 
 
-def placed(instances: list[Instance], assembly: Part | None, leftOut: list[str]) -> Elements:
-    """Elements of all instances; `assembly` is a Part with its sets, or None."""
+def placed(instances: list[Part], assembly: Part, leftOut: list[str]) -> Elements:
+    """Elements of all instances, and the sets of these and of the assembly."""
     points, labels, corners, types = [], [], [], {}
-    places = {'NSET': {}, 'ELSET': {}}  # {(instance, number in the file): number from 0}
+    where = {'NSET': {}, 'ELSET': {}}  # {(instance, number in the file): number from 0}
     for one in instances:
-        nodes, where = _all(one, 'nodes'), places['NSET']
-        points += _moved(list(nodes.values()), one.moves)
-        for number in nodes:
-            where[one, number] = len(where)
-        for number, (type, its) in _all(one, 'elements').items():
+        points += _moved(list(one.nodes.values()), one.moves)
+        for number in one.nodes:
+            where['NSET'][one, number] = len(where['NSET'])
+        for number, (type, its) in one.elements.items():
             labels.append('%s.%d' % (one.name, number) if one.name else '%d' % number)
-            its = its if nodesOf(type) else [node for node in its if (one, node) in where]
+            its = its if nodesOf(type) else [node for node in its if node in one.nodes]
             for node in its:
-                if (one, node) not in where:
+                if node not in one.nodes:
                     raise ValueError('element %s has the node %d, which does not exist' % (labels[-1], node))
             types.setdefault(type, []).append(len(corners))
-            places['ELSET'][one, number] = len(corners)
-            corners.append([where[one, node] for node in its])
-    sets = _Sets(instances, assembly, places, corners)
-    return Elements(numpy.array(points, dtype=float).reshape(-1, 3), _blocks(types, corners, leftOut), labels,
-                    sets.named('ELSET'), nodeSets=sets.ofNodes(), instances=sets.instances(), leftOut=leftOut)
+            where['ELSET'][one, number] = len(corners)
+            corners.append([where['NSET'][one, node] for node in its])
+    groups, ofElements = (_sets('ELSET', [assembly, *instances], where['ELSET'], isEach) for isEach in (False, True))
+    nodeSets = _sets('NSET', [assembly, *instances], where['NSET'], True)
+    for name, numbers in ofElements.items():
+        nodeSets.setdefault(name, [point for number in numbers for point in corners[number]])
+    copies = {one.name: [where['ELSET'][one, number] for number in one.elements] for one in instances if one.name}
+    return Elements(numpy.array(points, dtype=float).reshape(-1, 3), _blocks(types, corners, leftOut), labels, groups,
+                    nodeSets=nodeSets, instances=copies, leftOut=leftOut)
+
+
+def _sets(kind, owners, where, isEach):
+    """{name: numbers} of all owners, of which the first one is the assembly, together; with `isEach` also those of each
+    instance. The name of a set that several parts have begins with the part's, since these sets have nothing in common.
+    Members that do not exist are none."""
+    found = {}
+    for owner in owners:
+        for key, (name, members) in owner.sets[kind].items():
+            origin = owner.origin(kind, key)
+            isOwn = owner is not owners[0] and origin.name and any(
+                key in one.sets[kind] and one.origin(kind, key) is not origin for one in owners)
+            names = ['%s.%s' % (origin.name, name) if isOwn else name]
+            if isEach and owner is not owners[0] and owner.name:
+                names.append('%s.%s' % (owner.name, name))
+            for one in dict.fromkeys(names):
+                found.setdefault((origin, one), set()).update(where[member] for member in members if member in where)
+    return {name: sorted(numbers) for (_, name), numbers in found.items()}
 
 
 def _moved(points, moves):
@@ -110,58 +125,6 @@ def _blocks(types, corners, leftOut):
         kind = _KINDS.get(nodesOf(type), type)
         blocks.append((kind, numpy.array([corners[n] for n in numbers]) if kind != type else (), numbers))
     return blocks
-
-
-class _Sets:
-    def __init__(self, instances, assembly, places, corners):
-        self._placed, self._assembly = instances, assembly
-        self._places, self._corners = places, corners
-        self._copies = {assembly: []}
-        for one in instances:
-            self._copies.setdefault(one.part, []).append(one)
-
-    def named(self, kind):
-        """{name: numbers} of all instances together. The name of a set that several parts have begins
-        with the part's, since these sets have nothing in common."""
-        found = {}
-        parts = list(dict.fromkeys(one.part for one in self._placed))
-        owners = [*filter(None, [self._assembly]), *parts, *self._placed]
-        for owner in owners:
-            for key, (name, members) in owner.sets[kind].items():
-                others = [one for one in owners if one is not owner and key in one.sets[kind]]
-                isOwn = owner.name and others and owner is not self._assembly
-                found['%s.%s' % (owner.name, name) if isOwn else name] = self._numbers(kind, members)
-        return found
-
-    def ofNodes(self):
-        """{name: numbers of points}: all sets of nodes and of elements, and those of each instance."""
-        found = {}
-        for kind in ('NSET', 'ELSET'):
-            sets = self.named(kind)
-            for one in self._placed:
-                for name, members in [*one.part.sets[kind].values(), *one.sets[kind].values()]:
-                    if one.name:
-                        sets['%s.%s' % (one.name, name)] = self._numbers(kind, members, one)
-            for name, numbers in sets.items():
-                found.setdefault(name, numbers if kind == 'NSET' else
-                                 [point for number in numbers for point in self._corners[number]])
-        return found
-
-    def instances(self):
-        found = {one.name: [] for one in self._placed if one.name}
-        for (one, _), number in self._places['ELSET'].items():
-            if one.name:
-                found[one.name].append(number)
-        return found
-
-    def _numbers(self, kind, members, only=None):
-        """Those of the members in the instance `only`, or in all; members that do not exist are none."""
-        where, found = self._places[kind], []
-        for owner, number in members:
-            for one in [owner] if isinstance(owner, Instance) else self._copies[owner]:
-                if only in (None, one) and (one, number) in where:
-                    found.append(where[one, number])
-        return sorted(set(found))
 
 
 def read(name: str) -> Elements:
@@ -213,19 +176,19 @@ def _fields(line):
 class _Reader:
     def __init__(self):
         self.flat = Part('')
-        self.parts, self.instances, self.assembly = {}, {}, None
-        self.scope = self.flat
+        self.parts, self.instances, self.assembly = {}, {}, Part('')
+        self.scope = self.around = self.flat
         self.leftOut = []
 
     def take(self, keyword, options, rows):
         if keyword == 'PART':
             self.scope = self.parts.setdefault(_needed(options, 'NAME').upper(), Part(options['NAME']))
         elif keyword == 'ASSEMBLY':
-            self.scope = self.assembly = Part(options.get('NAME', ''))
+            self.scope = self.assembly
         elif keyword == 'INSTANCE':
             self._begin(options, rows)
         elif keyword == 'END INSTANCE':
-            self.scope = self.assembly or self.flat
+            self.scope = self.around
         elif keyword in ('END PART', 'END ASSEMBLY'):
             self.scope = self.flat
         elif keyword == 'NODE':
@@ -244,7 +207,8 @@ class _Reader:
             raise ValueError("the instance '%s' is of the part '%s', which is not in the file" % (name, part))
         if name.upper() in self.instances:
             raise ValueError("there are two instances '%s'" % name)
-        self.scope = self.instances[name.upper()] = Instance(name, self.parts[part.upper()])
+        self.around = self.scope
+        self.scope = self.instances[name.upper()] = Part(name, self.parts[part.upper()])
         moves = [[float(one or 0) for one in row] for row in rows if any(row)]
         if len(moves) > 2 or moves[1:] and len(moves[1]) < 7:
             raise ValueError("the place of the instance '%s' is not understood" % name)
@@ -291,7 +255,7 @@ class _Reader:
         members = []
         if kind == 'NSET' and 'ELSET' in options:
             elements = self._members(owner, 'ELSET', options['ELSET'])
-            members = [(one, node) for one, number in elements for node in _all(one, 'elements')[number][1]]
+            members = [(one, node) for one, number in elements for node in one.elements[number][1]]
         for row in rows:
             row = [one for one in row if one]
             if 'GENERATE' in options:
@@ -306,9 +270,8 @@ class _Reader:
         """[(part or instance, number)] of a number, a set's name, or both with an instance's."""
         if re.fullmatch(r'\d+', word):
             return [(owner, int(word))]
-        for scope in (owner, getattr(owner, 'part', owner)):
-            if word.upper() in scope.sets[kind]:
-                return [(owner if one is scope else one, n) for one, n in scope.sets[kind][word.upper()][1]]
+        if word.upper() in owner.sets[kind]:
+            return owner.sets[kind][word.upper()][1]
         head, _, tail = word.partition('.')
         if tail and head.upper() in self.instances:
             return self._members(self._instance(head), kind, tail)
@@ -327,8 +290,8 @@ class _Reader:
                 self.leftOut.append("the part '%s' with %s, of which there is no instance" %
                                     (part.name, counted(len(part.elements), 'element')))
         if not used:
-            used = [Instance(part.name, part) for part in self.parts.values()]
-        return placed([Instance('', self.flat), *used], self.assembly, self.leftOut)
+            used = [Part(part.name, part) for part in self.parts.values()]
+        return placed([Part('', self.flat), *used], self.assembly, self.leftOut)
 
 
 def _needed(options, name):

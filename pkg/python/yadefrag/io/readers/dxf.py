@@ -32,14 +32,15 @@ def readLayers(name: str, tolerance: float | None, chosen: Collection[str]) -> d
         walk.skipPaper()
     except Exception as error:  # of the library
         refuseFile(name, 'DXF file', error)
-    for layer, entity in entities:
+    for layer, entity, matrix in entities:
         found = walk.of(layer)
         reader = _READERS.get(entity.dxftype())
-        lines = None if reader is None else reader(entity, tolerance, name)
-        if lines is None:
+        own = tolerance and tolerance / numpy.linalg.norm(matrix[:3, :3], 2)  # by the largest factor of a length
+        points = None if reader is None else reader(entity, own, name)
+        if points is None:
             found.leftOut['entities of type %s' % entity.dxftype()] += 1
             continue
-        found.lines += [_plane(line) for line in lines]
+        found.lines += [(points @ matrix[:3] + matrix[3])[:, :2]] if len(points) else []
         found.leftOut['widths of polylines'] += getattr(entity, 'has_width', False)
     for layer, leftOut in walk.leftOut.items():
         walk.of(layer).leftOut += leftOut
@@ -82,8 +83,9 @@ class _Walk:
     def skipped(self, layer):
         return self.leftOut.setdefault(layer, collections.Counter())
 
-    def shown(self, layout, depth=0, around=_NAMELESS):
-        """(layer, entity): entities on layer 0 of a block are on the layer of the block's insert."""
+    def shown(self, layout, matrix=numpy.eye(4)[:, :3], depth=0, around=_NAMELESS):
+        """(layer, entity, matrix (4, 3) to the drawing): entities on layer 0 of a block are on the layer of the block's
+        insert."""
         for entity in layout:
             layer = _attribute(entity, 'layer', _NAMELESS)
             layer = around if layer == _NAMELESS else layer
@@ -93,13 +95,13 @@ class _Walk:
             elif layer.casefold() in self._frozen:
                 self.skipped(layer)['entities on frozen layers'] += 1
             elif isInsert and depth < _DEEPEST:
-                yield from self._insert(entity, depth, layer)
+                yield from self._insert(entity, matrix, depth, layer)
             elif layer.casefold() in self._off:
                 self.skipped(layer)['entities on layers that are off'] += 1
-            else:
-                yield layer, entity
+            elif not depth or entity.dxftype() != 'ATTDEF':
+                yield layer, entity, matrix
 
-    def _insert(self, insert, depth, layer):
+    def _insert(self, insert, matrix, depth, layer):
         """The contents of a block: an insert's layer hides them if it is frozen, and not if it is off.
         """
         leftOut = self.skipped(layer)
@@ -110,10 +112,8 @@ class _Walk:
             leftOut['clipping boundaries of blocks'] += 1
         leftOut['attributes of blocks'] += len(insert.attribs)
         for one in insert.multi_insert() if insert.mcount > 1 else [insert]:  # rows and columns
-            matrix = one.matrix44()
-            for inner, entity in self.shown(insert.block(), depth + 1, layer):
-                if entity.dxftype() != 'ATTDEF':
-                    yield from ((inner, moved) for moved in _moved(entity, matrix))
+            own = numpy.array(list(one.matrix44().rows())) @ numpy.column_stack([matrix, (0, 0, 0, 1)])
+            yield from self.shown(insert.block(), own[:, :3], depth + 1, layer)
 
     def skipPaper(self):
         for layout in self.document.layouts:
@@ -123,25 +123,6 @@ class _Walk:
                         self.skipped(_attribute(entity, 'layer', _NAMELESS))['entities in paper space'] += 1
 
 
-def _moved(entity, matrix):
-    """[entities] for a copy that is moved, scaled and turned."""
-    if entity.dxftype() not in _READERS:
-        return [entity]
-    tools = importlib.import_module('ezdxf.math.transformtools')
-    copy = entity.copy()
-    try:
-        copy.transform(matrix)
-        return [copy]
-    except tools.NonUniformScalingError:  # a circle becomes an ellipse
-        if entity.dxftype() in ('ARC', 'CIRCLE'):
-            return [_ellipseOf(entity).transform(matrix)] if entity.dxf.radius else []
-        return [one for part in entity.virtual_entities() for one in _moved(part, matrix)]
-
-
-def _ellipseOf(arc):
-    return importlib.import_module('ezdxf.entities').Ellipse.from_arc(arc)
-
-
 def _isClipped(insert):
     if not insert.has_extension_dict:
         return False
@@ -149,9 +130,10 @@ def _isClipped(insert):
     return filters is not None and 'SPATIAL' in filters
 
 
-def _plane(points):
-    """(n, 2) from points with two or three coordinates."""
-    return numpy.array([(p[0], p[1]) for p in points], dtype=float).reshape(-1, 2)
+# Readers: points (n, 3) of an entity, before the matrix of its block.
+
+def _places(points):
+    return numpy.array([point.xyz for point in points]).reshape(-1, 3)
 
 
 def _arc(entity, tolerance, name):
@@ -160,44 +142,46 @@ def _arc(entity, tolerance, name):
     if entity.dxftype() != 'ELLIPSE':
         if entity.dxf.radius == 0:
             return []
-        entity = _ellipseOf(entity)
+        entity = importlib.import_module('ezdxf.entities').Ellipse.from_arc(entity)
     drawn = entity.construction_tool()
     sweep = drawn.param_span or 2 * math.pi
-    a, b, centre = ((p.x, p.y) for p in (drawn.major_axis, drawn.minor_axis, drawn.center))
+    a, b, centre = _places([drawn.major_axis, drawn.minor_axis, drawn.center])
     points = ellipticArc(centre, (a, b), drawn.start_param, sweep, tolerance)
     if sweep == 2 * math.pi:
         points[-1] = points[0]
-    return [points]
+    return points
 
 
 def _spline(entity, tolerance, name):
     tolerance = requireTolerance(tolerance, name, 'has curves')
     points = list(entity.flattening(tolerance, _SPLINE_PIECES))
-    return [points + points[:1] if entity.closed and points[0] != points[-1] else points]
+    return _places(points + points[:1] if entity.closed and points[0] != points[-1] else points)
 
 
 def _polyline(entity, tolerance, name):
-    if entity.dxftype() == 'POLYLINE':
-        if not (entity.is_2d_polyline or entity.is_3d_polyline):
-            return None  # a surface
-        corners = [(v.dxf.location.x, v.dxf.location.y, v.dxf.get('bulge', 0))
-                   for v in entity.vertices if not v.dxf.get('flags', 0) & _FRAME_POINT]
-        isClosed, height = entity.is_closed, entity.dxf.get('elevation', (0, 0, 0))[2]
+    if entity.dxftype() == 'LWPOLYLINE':
+        isClosed, height = entity.closed, entity.dxf.elevation
+        corners = [(x, y, height, bend) for x, y, bend in entity.get_points('xyb')]
+    elif entity.is_2d_polyline or entity.is_3d_polyline:
+        isFlat = entity.is_2d_polyline and entity.dxf.hasattr('elevation')
+        corners = [(x, y, entity.dxf.elevation[2] if isFlat else z, v.dxf.get('bulge', 0)) for v in entity.vertices
+                   if not v.dxf.get('flags', 0) & _FRAME_POINT for x, y, z in [v.dxf.location]]
+        isClosed = entity.is_closed
     else:
-        corners, isClosed = list(entity.get_points('xyb')), entity.closed
-        height = entity.dxf.get('elevation', 0)
+        return None  # a surface
     if len(corners) < 2:
         return []
-    points = [numpy.array([corners[0][:2]], dtype=float)]
-    for (x, y, bend), after in zip(corners, corners[1:] + corners[:1] * isClosed):
+    points = [corners[0][:3]]
+    for (x, y, z, bend), after in zip(corners, corners[1:] + corners[:1] * isClosed):
         if bend:
             requireTolerance(tolerance, name, 'has curves')
-        points.append(bulge((x, y), after[:2], bend, tolerance))
-    points = numpy.concatenate(points)
+            points += [(a, b, z) for a, b in bulge((x, y), after[:2], bend, tolerance).tolist()]
+        else:
+            points.append(after[:3])
     # Mirrored entities have a coordinate system of their own.
-    return [list(entity.ocs().points_to_wcs([(x, y, height) for x, y in points.tolist()]))]
+    return numpy.array([tuple(point) for point in entity.ocs().points_to_wcs(points)])
 
 
 _READERS: dict[str, Callable] = dict(
-    LINE=lambda entity, *_: [[entity.dxf.start, entity.dxf.end]], ARC=_arc, CIRCLE=_arc, ELLIPSE=_arc,
+    LINE=lambda entity, *_: _places([entity.dxf.start, entity.dxf.end]), ARC=_arc, CIRCLE=_arc, ELLIPSE=_arc,
     SPLINE=_spline, LWPOLYLINE=_polyline, POLYLINE=_polyline)

@@ -4,6 +4,7 @@ A region is (outline, [holes]) of arrays (n, 2). Points inside an odd number of 
 """
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy
@@ -15,36 +16,23 @@ Region = tuple[numpy.ndarray, list[numpy.ndarray]]
 _WORKS = 'reading outlines works'
 
 
-def withoutCopies(shapes: Sequence[list[numpy.ndarray]], gap: float) -> tuple[list[list[numpy.ndarray]], int]:
-    """(shapes, number of omitted ones): without those that repeat another one's lines, in any
-    direction. A shape is a list of lines (n, 2)."""
-    lines = [line for shape in shapes for line in shape]
-    if not lines:
-        return [], 0
-    boxes = iter(map(tuple, numpy.round(numpy.hstack(_boxes(lines)) / gap).tolist()))
-    candidates = {}
-    for i, shape in enumerate(shapes):
-        candidates.setdefault(tuple(sorted(next(boxes) for _ in shape)), []).append(i)
-    kept = []
-    for those in candidates.values():
-        found: dict = {} if len(those) > 1 else {None: those[0]}
-        for i in those if not found else ():
-            found.setdefault(tuple(sorted(_segments(line, gap) for line in shapes[i])), i)
-        kept += found.values()
-    return [shapes[i] for i in sorted(kept)], len(shapes) - len(kept)
-
-
-def _starts(lines):
-    return numpy.cumsum([0] + [len(line) for line in lines[:-1]])
+def withoutCopies(shapes: Sequence[list[numpy.ndarray]], gap: float, leftOut: Counter[str]) -> \
+        list[list[numpy.ndarray]]:
+    """The shapes, lists of lines (n, 2), without those that repeat another one's lines, in any direction; their number
+    is added to leftOut."""
+    known = {}
+    for shape in shapes:
+        known.setdefault(tuple(sorted(_segments(line, gap) for line in shape)), shape)
+    if len(known) < len(shapes):
+        leftOut['second copies of a line'] += len(shapes) - len(known)
+    return list(known.values())
 
 
 def _segments(line, gap):
     """The line's segments, rounded, in any direction and order, as bytes."""
-    points = numpy.round(line / gap) + 0.  # no -0
-    starts, ends = points[:-1], points[1:]
-    isTurned = (starts[:, 0] > ends[:, 0]) | (starts[:, 0] == ends[:, 0]) & (starts[:, 1] > ends[:, 1])
-    pairs = numpy.where(isTurned[:, None], numpy.hstack([ends, starts]), numpy.hstack([starts, ends]))
-    return pairs[numpy.lexsort(pairs.T)].tobytes()
+    points = numpy.round(line / gap) @ (1, 1j) + 0  # complex numbers have an order; no -0
+    pairs = numpy.sort([points[:-1], points[1:]], axis=0)
+    return pairs[:, numpy.lexsort(pairs)].tobytes()
 
 
 def joined(lines: Sequence[numpy.ndarray], gap: float) -> list[numpy.ndarray]:
@@ -57,16 +45,32 @@ def joined(lines: Sequence[numpy.ndarray], gap: float) -> list[numpy.ndarray]:
     loops, chains = [], []
     for line in lines:
         line = withoutDoubles(line, gap)
-        if len(line) < 2:
-            continue
-        isLoop = len(line) > 3 and math.dist(line[0], line[-1]) <= gap
-        (loops if isLoop else chains).append(line)
-    partner = _partners(chains, gap)
-    known: set[int] = set()
+        if len(line) > 3 and math.dist(line[0], line[-1]) <= gap:
+            loops.append(line[:-1])
+        elif len(line) > 1:
+            chains.append(line)
+    return loops + _rings(chains, gap) if chains else loops
+
+
+def _rings(chains, gap):
+    """Loops of lines with a partner at each end; the ends of line i are 2i and 2i + 1."""
+    places = numpy.array([chain[side] for chain in chains for side in (0, -1)])
+    meeting = needed('scipy.spatial', 'python3-scipy', _WORKS).cKDTree(places).query_ball_point(places, gap)
+    for place, ends in zip(places.tolist(), meeting):
+        if len(ends) != 2:
+            words = 'ends at %s where no other one begins' if len(ends) == 1 else \
+                'ends at %s together with more than one other'
+            raise ValueError('a line %s: an outline is closed.' % (words % shown(tuple(place))))
+    rings, free = [], set(range(len(chains)))
     for first in range(len(chains)):
-        if first not in known:
-            loops.append(_walk(chains, partner, first, known))
-    return [line[:-1] for line in loops]
+        end, parts = 2 * first, []
+        while end // 2 in free:
+            free.remove(end // 2)
+            parts.append(chains[end // 2][::1 - end % 2 * 2][:-1])
+            end = sum(meeting[end ^ 1]) - (end ^ 1)
+        if parts:
+            rings.append(numpy.concatenate(parts))
+    return rings
 
 
 def withoutDoubles(line: numpy.ndarray, gap: float) -> numpy.ndarray:
@@ -82,63 +86,10 @@ def withoutDoubles(line: numpy.ndarray, gap: float) -> numpy.ndarray:
     return line[kept]
 
 
-def _partners(chains, gap):
-    """{(chain, 0 or -1): (chain, 0 or -1)}: pairs of ends that meet."""
-    ends = [(i, side) for i in range(len(chains)) for side in (0, -1)]
-    if not ends:
-        return {}
-    places = numpy.array([chains[i][side] for i, side in ends])
-    found = {}
-    tree = needed('scipy.spatial', 'python3-scipy', _WORKS).cKDTree(places)
-    for number, near in enumerate(tree.query_ball_point(places, gap)):
-        if len(near) != 2:
-            words = 'ends at %s where no other one begins' if len(near) == 1 else \
-                'ends at %s together with more than one other'
-            raise ValueError('a line %s: an outline is closed.' % (words % shown(tuple(places[number].tolist()))))
-        found[ends[number]] = ends[sum(near) - number]
-    return found
-
-
-def _walk(chains, partner, first, known):
-    """One loop, from the chain `first` on, whose chains become `known`; its first point is repeated at its end."""
-    end, parts = (first, 0), []
-    while end[0] not in known:
-        chain, side = end
-        known.add(chain)
-        parts.append((chains[chain] if side == 0 else chains[chain][::-1])[:-1])
-        end = partner[chain, -1 - side]
-    return numpy.concatenate(parts + [parts[0][:1]])
-
-
 def area(loop: numpy.ndarray) -> float:
     """Signed area, positive for counter-clockwise loops."""
-    return float(areas([loop])[0])
-
-
-def areas(loops: Sequence[numpy.ndarray]) -> numpy.ndarray:
-    """Signed areas of a list of loops (n, 2)."""
-    if not loops:
-        return numpy.zeros(0)
-    starts, lengths = _starts(loops), [len(loop) for loop in loops]
-    points = numpy.concatenate(loops)
-    points = points - numpy.repeat(points[starts], lengths, axis=0)
-    after = numpy.arange(1, len(points) + 1)
-    after[numpy.append(starts[1:], len(points)) - 1] = starts
-    (x, y), (nextX, nextY) = points.T, points[after].T
-    return numpy.add.reduceat(x * nextY - y * nextX, starts) / 2
-
-
-def extents(loops: Sequence[numpy.ndarray]) -> numpy.ndarray:
-    """The longer side of the box around each of a list of loops."""
-    if not loops:
-        return numpy.zeros(0)
-    low, high = _boxes(loops)
-    return (high - low).max(axis=1)
-
-
-def _boxes(lines):
-    points, starts = numpy.concatenate(lines), _starts(lines)
-    return numpy.minimum.reduceat(points, starts), numpy.maximum.reduceat(points, starts)
+    x, y = (loop - loop[0]).T
+    return float(x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)) / 2
 
 
 def closed(loop: numpy.ndarray) -> numpy.ndarray:
@@ -154,17 +105,14 @@ def nested(regions: list[Region], file: str) -> list[Region]:
     another one is outside that one, even if it fills the hole. ValueError, with the file and a place,
     for some of the regions that cross one another; others are not noticed.
     """
-    signed = iter(areas([loop for outline, holes in regions for loop in (outline, *holes)]) >= 0)
-    regions = [(_turned(outline, next(signed)), [_turned(hole, next(signed)) for hole in holes])
-               for outline, holes in regions]
+    regions = [(_turned(outline), list(map(_turned, holes))) for outline, holes in regions]
     inside = around(regions)
     if any(len(those) % 2 and regions[i][1] for i, those in enumerate(inside)):
         return nested([one for i, region in enumerate(regions) for one in _parts(*region, len(inside[i]) % 2)], file)
-    sizes = areas([outline for outline, _ in regions])
     shapes = {i: (regions[i][0], list(regions[i][1])) for i, those in enumerate(inside) if len(those) % 2 == 0}
     for i, those in enumerate(inside):
         if i not in shapes:
-            outer = min(those, key=lambda o: sizes[o])
+            outer = min(those, key=lambda o: area(regions[o][0]))
             if outer not in shapes:
                 raise ValueError('%s: an outline crosses another one near (%g, %g): draw one outline around '
                                  'both, or put them on different layers or into different files.' %
@@ -173,8 +121,8 @@ def nested(regions: list[Region], file: str) -> list[Region]:
     return list(shapes.values())
 
 
-def _turned(loop, isRight):
-    return loop if isRight else loop[::-1]
+def _turned(loop):
+    return loop if area(loop) >= 0 else loop[::-1]
 
 
 def _parts(outline, holes, isSplit):
@@ -185,7 +133,7 @@ def _parts(outline, holes, isSplit):
 def around(regions: list[Region]) -> list[list[int]]:
     """For each region, whose loops are counter-clockwise, the numbers of those that contain it."""
     polygon, prep = shapely('geometry', _WORKS).Polygon, shapely('prepared', _WORKS).prep
-    sizes = areas([outline for outline, _ in regions])
+    sizes = [area(outline) for outline, _ in regions]
     solids = [polygon(outline, holes) for outline, holes in regions]
     near, prepared = treeOf(solids, 'query', _WORKS), list(map(prep, solids))
     places = [polygon(outline).representative_point() for outline, _ in regions]

@@ -12,7 +12,8 @@ from yadefrag.io.readers import Found, needed, refuseFile, requireTolerance
 
 _SHAPELY = 'python3-shapely'
 _BETWEEN = str.maketrans(',;"', '   ')
-_WKT = re.compile(r'\s*;*\s*(?:SRID\s*=\s*\d+\s*;)?\s*([A-Z]+[^()]*?(?:EMPTY|(?=\()))', re.IGNORECASE)
+_WKT_SYSTEM = re.compile(r'SRID\s*=\s*\d+\s*;', re.IGNORECASE)
+_WKT_ENDS = re.compile(r'(?:(?<=\))|(?<=EMPTY))[\s;]*(?=[^\s;,)])', re.IGNORECASE)  # between two geometries
 _LEVEL = .5  # between white (0) and black (1)
 _SIXTEEN_BITS = 16
 _TIFF_BITS, _TIFF_GREY = 258, 262  # tags: bits of a value; 0: the value 0 is white
@@ -113,30 +114,11 @@ def readWkt(name: str, tolerance: float | None) -> Found:
     wkt = needed('shapely.wkt', _SHAPELY, name)
     found = Found()
     try:
-        for one in _wktTexts(_contents(name)):
+        for one in _WKT_ENDS.split(_WKT_SYSTEM.sub('', _contents(name)).strip(' \t\r\n;,')):
             _add(found, wkt.loads(one))
     except Exception as error:  # of the library
         refuseFile(name, 'WKT file', error)
     return found
-
-
-def _wktTexts(text):
-    """The text of each geometry: up to the bracket that closes its first one."""
-    place, texts = 0, []
-    while text[place:].strip(' \t\r\n;,'):
-        start = _WKT.match(text, place)
-        if not start:
-            raise ValueError('%s is not the beginning of a geometry' % shown(text[place:].strip()))
-        place = start.end()
-        depth = 0
-        if not start.group(1).upper().endswith('EMPTY'):
-            for place in range(start.end(), len(text)):
-                depth += (text[place] == '(') - (text[place] == ')')
-                if depth == 0:
-                    break
-            place += 1
-        texts.append(text[start.start(1):place])
-    return texts
 
 
 def _add(found, shape):

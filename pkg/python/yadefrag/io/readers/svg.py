@@ -1,7 +1,7 @@
 """Shapes of an SVG file that a viewer shows: in units of the viewBox, y upwards.
 
-svgelements parses paths, matrices, lengths and colours. svg_style.py is the cascade, svg_shapes.py
-makes lines and regions of what is found here.
+svgelements parses paths, matrices, lengths and colours, cssselect2 style sheets. svg_style.py is the cascade,
+svg_shapes.py makes lines and regions of what is found here.
 """
 
 import dataclasses
@@ -15,7 +15,6 @@ from yadefrag.io.readers import Found, needed, refuseFile
 from yadefrag.io.readers.svg_shapes import Item, appended
 from yadefrag.io.readers.svg_style import (INITIAL, Sheets, fraction, hrefOf, isPattern, isSeen, isWhite, tagOf, urlOf)
 
-_PACKAGE = 'python3-svgelements'
 _PIXELS_PER_INCH = 96
 _SHAPES = {'path', 'rect', 'circle', 'ellipse', 'line', 'polyline', 'polygon'}
 _WITH_MARKERS = {'path', 'line', 'polyline', 'polygon'}
@@ -27,7 +26,7 @@ _UNITS = {None, '', '%', 'px', 'pt', 'pc', 'mm', 'cm', 'in', 'em', 'Q'}
 
 
 def read(name: str, tolerance: float | None) -> Found:
-    svg = needed('svgelements', _PACKAGE, name)
+    svg, _ = (needed(one, 'python3-' + one, name) for one in ('svgelements', 'cssselect2'))
     found = Found()
     try:
         root = ElementTree.parse(name).getroot()
@@ -247,7 +246,6 @@ class _Walk:
         radii = [one if one is not None else other or 0. for one, other in (radii, radii[::-1])]
         if tag == 'rect':
             width, height = length('width'), length('height')
-            radii = [min(radius, side / 2) for radius, side in zip(radii, (width, height))]
             return self.svg.Path(self.svg.Rect(length('x'), length('y'), width, height, *radii)) \
                 if width > 0 and height > 0 else None
         radii = [length('r')] * 2 if tag == 'circle' else radii

@@ -14,9 +14,6 @@ _PAINTS = ('fill', 'stroke')
 _SERVERS = ('linearGradient', 'radialGradient', 'pattern')
 _HREFS = ('href', '{http://www.w3.org/1999/xlink}href')
 _WHITE = 0xffffffff
-_NAME = r'[\w\u0080-\uffff-]+'
-# A type, or *, with ids and classes.
-_COMPOUND = re.compile(r'(%s|\*)?((?:[.#]%s)*)$' % (_NAME, _NAME))
 
 
 def tagOf(element: Element) -> str:
@@ -27,53 +24,45 @@ def tagOf(element: Element) -> str:
     return tag if space in ('', '{http://www.w3.org/2000/svg') else ''
 
 
-def declarations(text: str) -> list[tuple[str, str, bool]]:
-    """[(property, value, is important)]."""
-    found = []
-    for one in re.sub(r'/\*.*?\*/', '', text, flags=re.DOTALL).split(';'):
-        key, colon, value = one.partition(':')
-        value, important, _ = value.partition('!')
-        if colon:
-            found.append((key.strip().lower(), value.strip(), bool(important)))
-    return found
-
-
 class Sheets:
-    """The style sheets of a document."""
+    """The style sheets of a document, by tinycss2 and cssselect2."""
 
     def __init__(self, root: Element, leftOut: Counter[str]) -> None:
-        self.parents = {child: parent for parent in root.iter() for child in parent}
-        self._rules, self._leftOut = [], leftOut
+        import cssselect2
+        import tinycss2
+        self._css, self._select = tinycss2, cssselect2
+        self._rules, self._leftOut = self._select.Matcher(), leftOut
+        self._known = {one.etree_element: one for one in self._select.ElementWrapper.from_xml_root(root).iter_subtree()}
         for element in root.iter():
             if tagOf(element) == 'style' and element.get('type', 'text/css') in ('text/css', ''):
-                self._read(''.join(element.itertext()))
-        self._rules.sort(key=lambda rule: rule[0])  # stable: of equal ones, the last one holds
+                self._read(self._css.parse_stylesheet(''.join(element.itertext()), skip_comments=True))
 
-    def _read(self, text):
-        text = re.sub(r'/\*.*?\*/|<!--|-->', '', text, flags=re.DOTALL)
-        imports = re.findall(r'@import[^;]*;?', text)
-        if imports:
-            self._leftOut['imported style sheets'] += len(imports)
-        text = re.sub(r'@(import|charset|namespace)[^;]*;', '', text)
-        # Of blocks of rules only those for a screen; of other blocks, such as fonts, none.
-        text = re.sub(r'@media\b([^{]*)\{((?:[^{}]*\{[^{}]*\})*)[^{}]*\}', lambda found: found[2] if re.search(
-            r'^\s*$|\b(all|screen)\b', found[1]) else '', text)
-        text = re.sub(r'@[^{]*\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}', '', text)
-        for selectors, block in re.findall(r'([^{}]+)\{([^{}]*)\}', text):
-            for selector in selectors.split(','):
-                steps = _steps(selector.strip())
-                if steps is None:
+    def _read(self, rules):
+        for rule in rules:
+            if rule.type == 'at-rule' and rule.lower_at_keyword == 'import':
+                self._leftOut['imported style sheets'] += 1
+            elif rule.type == 'at-rule' and rule.lower_at_keyword == 'media' and rule.content and \
+                    re.search(r'^\s*$|\b(all|screen)\b', self._css.serialize(rule.prelude)):
+                self._read(self._css.parse_rule_list(rule.content, skip_comments=True))
+            elif rule.type == 'qualified-rule':
+                try:
+                    for selector in self._select.compile_selector_list(rule.prelude):
+                        self._rules.add_selector(selector, self._declarations(rule.content))
+                except self._select.SelectorError:
                     self._leftOut['style rules with an unusual selector'] += 1
-                else:
-                    self._rules.append((_specificity(steps), steps, declarations(block)))
+
+    def _declarations(self, content):
+        """[(property, value, level in the cascade)]."""
+        return [(one.lower_name, self._css.serialize([part for part in one.value if part.type != 'comment']),
+                 2 * one.important + 1) for one in self._css.parse_declaration_list(content) if
+                one.type == 'declaration']
 
     def own(self, element: Element) -> dict[str, str]:
         """{property: value} of the element itself."""
         cascade = [(key, value, 0) for key, value in element.attrib.items()]
-        cascade += [(key, value, 2 * isImportant + 1) for _, steps, block in self._rules
-                    if self._matches(element, steps) for key, value, isImportant in block]
-        cascade += [(key, value, 2 * isImportant + 1)
-                    for key, value, isImportant in declarations(element.get('style', ''))]
+        for _, _, pseudo, block in self._rules.match(self._known[element]):
+            cascade += block if pseudo is None else []
+        cascade += self._declarations(element.get('style', ''))
         cascade.sort(key=lambda one: one[2])
         found = {}
         for key, value, _ in cascade:
@@ -94,44 +83,8 @@ class Sheets:
 
     def around(self, element: Element) -> dict[str, str]:
         """What the element inherits from its own parents."""
-        parent = self.parents.get(element)
-        return INITIAL if parent is None else self.computed(parent, self.around(parent))
-
-    def _matches(self, element, steps):
-        """True if the element matches the last of the steps, and elements around it those before."""
-        *before, (isChild, kind, ids, classes) = steps
-        own = element.get('class', '').split()
-        if kind not in ('', '*', tagOf(element)) or any(element.get('id') != one for one in ids) \
-                or not all(one in own for one in classes):
-            return False
-        parent = self.parents.get(element)
-        while before and parent is not None:
-            if self._matches(parent, before):
-                return True
-            parent = None if isChild else self.parents.get(parent)
-        return not before
-
-
-def _steps(selector):
-    """[(is a child of what is before, type, ids, classes)]; None for other selectors than those of types, ids and
-    classes within each other."""
-    steps, isChild = [], False
-    for word in selector.replace('>', ' > ').split():
-        if word == '>':
-            isChild = True
-            continue
-        found = _COMPOUND.match(word)
-        if not found:
-            return None
-        ids, classes = ([name[1:] for name in re.findall(r'[.#][^.#]+', found[2]) if name[0] == mark] for mark in '#.')
-        steps.append((isChild, found[1] or '', ids, classes))
-        isChild = False
-    return steps if steps and not isChild else None
-
-
-def _specificity(steps):
-    return (sum(len(ids) for *_, ids, _ in steps), sum(len(classes) for *_, classes in steps),
-            sum(kind not in ('', '*') for _, kind, *_ in steps))
+        parent = self._known[element].parent
+        return INITIAL if parent is None else self.computed(parent.etree_element, self.around(parent.etree_element))
 
 
 def urlOf(value: str) -> str | None:
