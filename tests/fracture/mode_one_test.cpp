@@ -210,18 +210,6 @@ TriangleMesh barMesh() {
 int lowerHalf(Vec2 at) { return at.y < kHeight / 2 ? 0 : 1; }
 int leftHalf(Vec2 at) { return at.x < kLength / 2 ? 0 : 1; }
 
-std::vector<JointEdge> interfaces(const TriangleMesh& mesh, double strength, double energy,
-                                  double atX) {
-  std::vector<JointEdge> edges;
-  for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      if (a < b && std::abs(mesh.nodes[a].x - atX) < 1e-9 && std::abs(mesh.nodes[b].x - atX) < 1e-9)
-        edges.push_back({{a, b}, strength, energy});
-    }
-  return edges;
-}
-
 /// (1) The strain at the first crack, and whose it is: the material of either side, as a set of
 /// bits.
 struct FirstCrack {
@@ -291,7 +279,8 @@ void checkInterface(std::vector<BodyMaterial> materials) {
   // Slowly: the waves of it have a hundredth of the stress that breaks it.
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     spec.velocity[n].x = .01 * (mesh.nodes[n].x - kLength / 2) / kLength * 2;
-  spec.places.joints = interfaces(mesh, kWeak, kEnergy, kLength / 2);
+  spec.places.joints =
+      jointsWhere(mesh, kWeak, kEnergy, [](Vec2 x) { return std::abs(x.x - kLength / 2) < 1e-9; });
   ASSERT_EQ(spec.places.joints.size(), 8U);
   World world;
   world.addBody(mesh, spec);

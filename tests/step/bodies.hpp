@@ -34,6 +34,19 @@ inline void hold(BodySpec& spec, const TriangleMesh& mesh, std::uint8_t held,
     if (where(mesh.nodes[i])) spec.held[i] |= held;
 }
 
+/// Sides of which both ends are there, once each.
+inline std::vector<JointEdge> jointsWhere(const TriangleMesh& mesh, double strength, double energy,
+                                          const std::function<bool(Vec2)>& where) {
+  std::vector<JointEdge> joints;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      if (a < b && where(mesh.nodes[a]) && where(mesh.nodes[b]))
+        joints.push_back({{a, b}, strength, energy});
+    }
+  return joints;
+}
+
 /// The mesh of the outline turned by `degrees`, turned back: whatever the mesher prefers points
 /// elsewhere.
 inline TriangleMesh turnedMesh(Polygon polygon, const SizeField& size, double degrees,

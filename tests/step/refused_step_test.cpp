@@ -148,8 +148,9 @@ class Twins {
 
 TEST(RefusedStep, ChangesNothing) {
   std::map<std::string, int> refusals;
-  const std::set<std::string> whole{"alone",  "apart", "bonded", "contact", "crowd",
-                                    "driven", "rigid", "smooth", "stressed"};
+  const std::set<std::string> whole{"alone", "apart",  "bonded",  "contact",
+                                    "crowd", "driven", "flowing", "flowingToo",
+                                    "large", "rigid",  "smooth",  "stressed"};
   for (const auto& [name, scene] : scenes()) {
     SCOPED_TRACE(name);
     for (const std::uint64_t seed :
@@ -161,6 +162,13 @@ TEST(RefusedStep, ChangesNothing) {
       EXPECT_GE(twins.rows(), name == "alone" ? 0U : name == "bonded" ? 30U : 50U);
       EXPECT_EQ(twins.world().fracture.numCracks() > 0, whole.count(name) == 0);
       EXPECT_EQ(twins.world().dropped.count > 0, name == "dropped");
+      for (const Component& body : twins.world().model.components) {
+        const auto& strain = twins.world().model.triangles.plastic.strain;
+        if (!name.starts_with("flowing")) continue;
+        EXPECT_GT(std::ranges::max(std::span(strain).subspan(
+                      body.firstTriangle, body.lastTriangle - body.firstTriangle)),
+                  .01);
+      }
     }
     if (HasFailure()) return;
   }
