@@ -10,6 +10,7 @@
 
 #include "core/checks.hpp"
 #include "dynamics/critical_time_step.hpp"
+#include "dynamics/element_state.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
@@ -25,16 +26,25 @@ inline constexpr ElasticMaterial kSteel{
 inline ComponentId appendBlock(Model& model, Vec2 low, Vec2 high, int nx, int ny,
                                const ElasticMaterial& material = kSteel, double thickness = 1) {
   TriangleMesh mesh = structuredRectangle(low, high, nx, ny);
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> shift(-.2, .2);
-  for (Vec2& x : mesh.nodes) {
-    const Vec2 by{shift(random) * (high.x - low.x) / nx, shift(random) * (high.y - low.y) / ny};
-    if (x.x > low.x && x.x < high.x && x.y > low.y && x.y < high.y) x += by;
-  }
+  test::jitter(
+      mesh, {.2 * (high.x - low.x) / nx, .2 * (high.y - low.y) / ny}, std::mt19937_64(5),
+      [&](Vec2 x) {
+        return x.x > low.x && x.x < high.x && x.y > low.y && x.y < high.y ? Vec2{1, 1} : Vec2{};
+      });
   Component component;
   component.material = material;
   component.thickness = thickness;
   return appendBody(model, mesh, component);
+}
+
+inline Model modelOf(const TriangleMesh& mesh, const ElasticMaterial& material,
+                     ElementKind element = ElementKind::kLinear) {
+  Component component;
+  component.material = material;
+  component.element = element;
+  Model model;
+  appendBody(model, mesh, component);
+  return model;
 }
 
 /// A square of 20 mm.
@@ -50,6 +60,10 @@ inline Model smoothed(Model model) {
   return model;
 }
 
+inline void turn(Model& model, double angle) {
+  for (Vec2& x : model.nodes.position) x = test::turnedBy(x, angle);
+}
+
 /// (N) Forces at the present positions: those of a step of no length.
 inline std::vector<Vec2> forcesOf(Model model) {
   ExplicitDynamics dynamics;
@@ -63,6 +77,26 @@ inline void shake(Model& model, double most) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> any(-most, most);
   for (Vec2& v : model.nodes.velocity) v = {any(random), any(random)};
+}
+
+/// Moves all nodes by up to `most` (m); forces are then the slopes of the energy, by differences of
+/// a way `h` (m) to either side, but for `tolerance` of the largest force.
+inline void expectForcesAreTheGradient(Model model, double most, double h, double tolerance) {
+  shake(model, most);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    model.nodes.position[n] += model.nodes.velocity[n];
+  const std::vector<Vec2> forces = forcesOf(model);
+  double largest = 0;
+  for (const Vec2 force : forces) largest = std::max(largest, norm(force));
+  for (std::size_t n = 0; n < forces.size(); ++n)
+    for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+      const auto at = [&](double way) {
+        Model moved = model;
+        moved.nodes.position[n].*axis += way;
+        return strainEnergy(moved, 0);
+      };
+      EXPECT_NEAR(forces[n].*axis, (at(-h) - at(h)) / (2 * h), tolerance * largest);
+    }
 }
 
 /// A model, its solver and its ledger, stepped together.

@@ -207,11 +207,9 @@ struct Down {
 TimedResult fall(const Down& down) {
   World world;
   world.contactSettings.passes = down.passes;
-  const TriangleMesh uneven = unevenBlock(down.ratio);
-  const TriangleMesh other = structuredRectangle({.1, -.5}, {.9, -1e-6}, 3, 2);
   const double speed = down.speed * waveSpeed(rubber());
-  world.addBody(uneven, moving(uneven, rubber(), {0, -speed}));
-  world.addBody(other, moving(other, rubber(), {}));
+  addMoving(world, unevenBlock(down.ratio), rubber(), {0, -speed});
+  addMoving(world, structuredRectangle({.1, -.5}, {.9, -1e-6}, 3, 2), rubber(), {});
   return watchFor(world, 1e-6 / speed + 3 / waveSpeed(rubber()), down.ofCritical);
 }
 

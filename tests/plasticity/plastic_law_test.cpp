@@ -345,13 +345,12 @@ TEST(PlasticFlow, RotationsAreExact) {
     Stepper run = runOf(model, .5);
     run.step(100);
     const std::vector<Vec2> before = forcesOf(run.model);
-    const double c = std::cos(2.), s = std::sin(2.);
     for (auto* field : {&run.model.nodes.position, &run.model.nodes.velocity})
-      for (Vec2& x : *field) x = Vec2{c * x.x - s * x.y, s * x.x + c * x.y};
+      for (Vec2& x : *field) x = test::turnedBy(x, 2);
     const std::vector<Vec2> after = forcesOf(run.model);
     double most = 0, difference = 0;
     for (std::size_t n = 0; n < before.size(); ++n) {
-      const Vec2 turned{c * before[n].x - s * before[n].y, s * before[n].x + c * before[n].y};
+      const Vec2 turned = test::turnedBy(before[n], 2);
       most = std::max(most, norm(turned));
       difference = std::max(difference, norm(turned - after[n]));
     }

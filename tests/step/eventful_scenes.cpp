@@ -20,8 +20,7 @@ TriangleMesh rectangleAt(Vec2 low, Vec2 size, int nx, int ny) {
 /// A row of blocks; the outer ones fly inwards. `change` is called for each body.
 World row(int count, double gap, double speed,
           const std::function<void(int, BodySpec&, const TriangleMesh&)>& change) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   for (int k = 0; k < count; ++k) {
     const TriangleMesh mesh = rectangleAt({(1 + gap) * k, .07 * k}, {1, 1}, 3 + k % 3, 4);
     const double inwards = k == 0 ? speed : k == count - 1 ? -speed : 0;
@@ -37,8 +36,7 @@ void nothing(int, BodySpec&, const TriangleMesh&) {}
 
 /// A body for each law of flow, the first ones of several chunks of triangles; all bulge and shear.
 World flowing(int parity) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   const std::vector<PlasticMaterial> laws = plasticLaws();
   for (int k = 0; k < static_cast<int>(laws.size()); ++k) {
     const Vec2 low{1.002 * k, 0};
@@ -162,8 +160,7 @@ std::map<std::string, Scene> scenes() {
   };
   // Bodies of several chunks of triangles.
   all["large"] = [] {
-    World world;
-    world.contactSettings.passes = 2;
+    World world = twoPasses();
     world.dynamicsSettings = {.damping = 3, .gravity = {0, -9.81}, .viscosity = {.06, 1.2}};
     for (const int k : {0, 1}) {
       const TriangleMesh mesh = rectangleAt({1.001 * k, .1 * k}, {1, 1}, 12 + k, 12);
@@ -244,12 +241,7 @@ std::map<std::string, Scene> scenes() {
   };
   all["rigid"] = [] {
     World world = row(2, .002, 6, nothing);
-    RigidSpec line;
-    line.shape.nodes = {{5, -.1}, {-5, -.3}};
-    line.shape.loops = {{0, 1}};
-    line.friction = .3;
-    line.name = "line";
-    world.addRigid(line);
+    world.addRigid(rigidLine({5, -.1}, {-5, -.3}, .3));
     world.dynamicsSettings.gravity = {0, -300};
     return world;
   };
@@ -276,8 +268,7 @@ void drive(World& world, double speed, double pressure) {
 }
 
 World eventfulWorld(bool isDriven) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   for (int k = 0; k < 3; ++k) {
     const Vec2 low{.01 * k, 0};
     const TriangleMesh mesh =
