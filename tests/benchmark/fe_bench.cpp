@@ -100,21 +100,16 @@ void flowingStep(benchmark::State& state) {
 PlasticMaterial elastic() { return {}; }
 PlasticMaterial neverYields() { return {.yieldStress = 1e15}; }
 
-BENCHMARK(plainStep)
-    ->Name("step")
-    ->ArgsProduct({{10000, 100000, 1000000}, {1, 2}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK(gravityStep)
-    ->Name("step with gravity")
-    ->ArgsProduct({{100000}, {1, 2}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+void inMs(benchmark::internal::Benchmark* one) {
+  one->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+BENCHMARK(plainStep)->Name("step")->ArgsProduct({{10000, 100000, 1000000}, {1, 2}})->Apply(inMs);
+BENCHMARK(gravityStep)->Name("step with gravity")->ArgsProduct({{100000}, {1, 2}})->Apply(inMs);
 BENCHMARK(viscousStep)
     ->Name("step with bulk viscosity")
     ->ArgsProduct({{100000}, {1, 2}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->Apply(inMs);
 
 // Names: held step/<material>/<0: linear, 1: smoothed>/<elements>.
 #define HELD_STEP(material)                  \
@@ -128,11 +123,7 @@ HELD_STEP(idealPlasticity);
 HELD_STEP(powerLaw);
 HELD_STEP(johnsonCook);
 HELD_STEP(frictional);
-BENCHMARK(baselineStep)
-    ->Name("step without AVX")
-    ->Args({100000, 1})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+BENCHMARK(baselineStep)->Name("step without AVX")->Args({100000, 1})->Apply(inMs);
 
 struct Scene {
   const char* name;
@@ -144,9 +135,11 @@ const Scene kScenes[] = {
     {"rings", [](World& world, int size) { fescenes::addRings(world, size, false); }},
     {"smooth rings", [](World& world, int size) { fescenes::addRings(world, size, true); }},
     {"squares", [](World& world, int size) { fescenes::addSquares(world, size); }},
-    {"impact", [](World& world, int size) { fescenes::addImpact(world, 10e-3 / size, false); }},
+    {"impact", [](World& world, int size) { fescenes::addImpact(world, {10e-3 / size}); }},
     {"smooth impact",
-     [](World& world, int size) { fescenes::addImpact(world, 10e-3 / size, true); }},
+     [](World& world, int size) {
+       fescenes::addImpact(world, {.size = 10e-3 / size, .smooth = true});
+     }},
     {"touching blocks", [](World& world, int size) { test::addBlockWall(world, {size}); }, 0},
     // Joints that gravity does not close in the run.
     {"blocks apart",
@@ -194,8 +187,7 @@ void registerScene(const Scene& scene, std::int64_t size, std::int64_t threads) 
   benchmark::RegisterBenchmark((std::string("contact/") + scene.name).c_str(), contactSteps, scene)
       ->Args({size, threads})
       ->Iterations(300)
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+      ->Apply(inMs);
 }
 
 [[maybe_unused]] const bool kRegistered = [] {
@@ -225,48 +217,20 @@ constexpr double kSize = .4e-3;  // m
 constexpr int kSteps = 400, kRubbleBegin = 2000;
 
 void addBrittleImpact(World& world, double triangles, double fractureEnergy) {
-  constexpr double kRadius = 2e-3;
   // An equilateral triangle takes √3/4·size².
   const double high = std::sqrt(triangles * .433 * kSize * kSize / 2);
-  const TriangleMesh block =
-      triangulate({{{-high, -high}, {high, -high}, {high, 0}, {-high, 0}}, {}}, kSize);
-  BodySpec spec = fescenes::steelBody(block, {});
-  spec.material = {370e9, .22, 3900, false};
-  spec.brittle.tensileStrength = 300e6;
-  spec.brittle.fractureEnergy = fractureEnergy;
-  spec.brittle.strengthScatter = .1;
-  spec.friction = .3;
-  spec.held.assign(block.nodes.size(), kFree);
-  for (std::size_t i = 0; i < block.nodes.size(); ++i)
-    if (block.nodes[i].y < -high + 1e-9) spec.held[i] = kHeldXY;
-  world.addBody(block, spec);
-  const TriangleMesh cylinder =
-      triangulate({fescenes::circle({0, kRadius * 1.001}, kRadius, kSize), {}}, kSize);
-  world.addBody(cylinder, fescenes::steelBody(cylinder, {0, -50}));
+  fescenes::addImpact(world, {.size = kSize,
+                              .radius = 2e-3,
+                              .wide = 2 * high,
+                              .high = high,
+                              .speed = 50,
+                              .fractureEnergy = fractureEnergy});
 }
 
-constexpr double kImpactSize = 3.05e-4, kRubbleSize = .96e-4;  // m
-
-void addImpact(World& world, double size) {
-  constexpr double kRadius = 5e-3, kWide = 40e-3, kHigh = 20e-3;
-  const TriangleMesh block =
-      triangulate({{{0, 0}, {kWide, 0}, {kWide, kHigh}, {0, kHigh}}, {}}, size);
-  BodySpec spec = fescenes::steelBody(block, {});
-  spec.material = {370e9, .22, 3900, false};
-  spec.brittle.tensileStrength = 300e6;
-  spec.brittle.strengthScatter = .1;
-  spec.brittle.seed = 1;
-  spec.friction = std::tan(.3);
-  spec.held.assign(block.nodes.size(), kFree);
-  for (std::size_t i = 0; i < block.nodes.size(); ++i)
-    if (block.nodes[i].y < 1e-9) spec.held[i] = kHeldXY;
-  world.addBody(block, spec);
-  const TriangleMesh cylinder =
-      triangulate({fescenes::circle({kWide / 2, kHigh + kRadius + 2e-5}, kRadius, size), {}}, size);
-  BodySpec steel = fescenes::steelBody(cylinder, {0, -50});
-  steel.smoothNodes.assign(cylinder.nodes.size(), 1);
-  world.addBody(cylinder, steel);
-}
+constexpr fescenes::Impact kImpact{
+    .size = 3.05e-4, .speed = 50, .smooth = true, .fractureEnergy = 0};
+constexpr fescenes::Impact kRubble{
+    .size = .96e-4, .speed = 50, .smooth = true, .fractureEnergy = 0};
 
 void timeSteps(benchmark::State& state, World& world) {
   const double dt = .8 * world.criticalTimeStep();
@@ -296,7 +260,7 @@ void crackSteps(benchmark::State& state, double fractureEnergy) {
 void impactSteps(benchmark::State& state) {
   World world;
   world.threads = static_cast<int>(state.range(1));
-  addImpact(world, kImpactSize);
+  fescenes::addImpact(world, kImpact);
   timeSteps(state, world);
 }
 
@@ -304,7 +268,7 @@ void impactSteps(benchmark::State& state) {
 void rubbleSteps(benchmark::State& state) {
   static World world;
   if (world.model.nodes.size() == 0) {
-    addImpact(world, kRubbleSize);
+    fescenes::addImpact(world, kRubble);
     world.threads = 2;
     const double dt = .8 * world.criticalTimeStep();
     for (int i = 0; i < kRubbleBegin; ++i) world.step(dt);
@@ -325,26 +289,20 @@ void rubbleSteps(benchmark::State& state) {
 [[maybe_unused]] const bool kCracksRegistered = [] {
   for (const auto& [name, energy] : {std::pair{"instant", 0.}, std::pair{"cohesive", 500.}})
     benchmark::RegisterBenchmark((std::string("fracture/") + name).c_str(), crackSteps, energy)
-        ->Arg(2000)
-        ->Arg(20000)
-        ->Arg(200000)
-        ->Arg(1000000)
+        ->ArgsProduct({{2000, 20000, 200000, 1000000}})
         ->Iterations(kSteps)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
+        ->Apply(inMs);
   for (const int steps : {600, 6000})
     for (const int threads : {1, 2})
       benchmark::RegisterBenchmark("fracture/impact", impactSteps)
           ->Args({steps, threads})
           ->Iterations(steps)
-          ->Unit(benchmark::kMillisecond)
-          ->UseRealTime();
+          ->Apply(inMs);
   for (const int threads : {1, 2, 1, 2, 1, 2})
     benchmark::RegisterBenchmark("fracture/rubble", rubbleSteps)
         ->Arg(threads)
         ->Iterations(100)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
+        ->Apply(inMs);
   return true;
 }();
 

@@ -44,9 +44,7 @@ inline void addRings(World& world, int count, bool smooth) {
     const double inner = kInnermost + i * (kThickness + kGap);
     Polygon ring;
     ring.outline = circle({}, inner + kThickness, kSize);
-    std::vector<Vec2> hole = circle({}, inner, kSize);
-    std::reverse(hole.begin(), hole.end());
-    ring.holes.push_back(hole);
+    ring.holes.push_back(circle({}, inner, kSize));
     const TriangleMesh mesh = triangulate(ring, kSize);
     BodySpec spec = steelBody(mesh, kSpeed * someDirection(random));
     if (smooth) spec.smoothNodes.assign(mesh.nodes.size(), 1);
@@ -71,30 +69,42 @@ inline void addSquares(World& world, int n) {
     world.addBody(mesh, steelBody(mesh, velocities[static_cast<std::size_t>(k)]));
   }
   const double inside = kPitch * n + kGap, far = inside + kWall;
-  const Polygon frame{{{-kWall, -kWall}, {far, -kWall}, {far, far}, {-kWall, far}},
-                      {{{0, 0}, {0, inside}, {inside, inside}, {inside, 0}}}};
+  const Polygon frame{test::box({-kWall, -kWall}, {far, far}),
+                      {test::box({0, 0}, {inside, inside})}};
   const TriangleMesh mesh = triangulate(frame, .3e-3);
   BodySpec spec = steelBody(mesh, {});
   spec.held.assign(mesh.nodes.size(), kHeldXY);
   world.addBody(mesh, spec);
 }
 
-/// A cylinder of 10 mm on a block of 40 × 20 mm whose lower side is held, `size` (m) the triangles'
-/// edges.
-inline void addImpact(World& world, double size, bool smooth) {
-  constexpr double kRadius = 5e-3, kWide = 40e-3, kHigh = 20e-3;
+struct Impact {
+  double size;                                       ///< m, of the triangles' edges
+  double radius = 5e-3, wide = 40e-3, high = 20e-3;  ///< m, of the cylinder; of the block
+  double speed = kSpeed;                             ///< m/s
+  bool smooth = false;                               ///< the cylinder
+  double fractureEnergy = NAN;                       ///< J/m², if the block is of a ceramic
+};
+
+/// A cylinder falls on a block whose lower side is held.
+inline void addImpact(World& world, const Impact& impact) {
   const TriangleMesh block = triangulate(
-      {{{-kWide / 2, -kHigh}, {kWide / 2, -kHigh}, {kWide / 2, 0}, {-kWide / 2, 0}}, {}}, size);
-  BodySpec blockSpec = steelBody(block, {});
-  blockSpec.held.assign(block.nodes.size(), kFree);
-  for (std::size_t i = 0; i < block.nodes.size(); ++i)
-    if (block.nodes[i].y < -kHigh + 1e-9) blockSpec.held[i] = kHeldXY;
-  world.addBody(block, blockSpec);
-  const TriangleMesh cylinder =
-      triangulate({circle({0, kRadius * 1.001}, kRadius, size), {}}, size);
-  BodySpec cylinderSpec = steelBody(cylinder, {0, -kSpeed});
-  if (smooth) cylinderSpec.smoothNodes.assign(cylinder.nodes.size(), 1);
-  world.addBody(cylinder, cylinderSpec);
+      test::rectangle({-impact.wide / 2, -impact.high}, {impact.wide / 2, 0}), impact.size);
+  BodySpec spec = steelBody(block, {});
+  if (!std::isnan(impact.fractureEnergy)) {
+    spec.material = {370e9, .22, 3900, false};
+    spec.brittle.tensileStrength = 300e6;
+    spec.brittle.fractureEnergy = impact.fractureEnergy;
+    spec.brittle.strengthScatter = .1;
+    spec.brittle.seed = 1;
+    spec.friction = std::tan(.3);
+  }
+  for (const Vec2 x : block.nodes) spec.held.push_back(x.y < -impact.high + 1e-9 ? kHeldXY : kFree);
+  world.addBody(block, spec);
+  const TriangleMesh cylinder = triangulate(
+      {circle({0, impact.radius * 1.001}, impact.radius, impact.size), {}}, impact.size);
+  BodySpec steel = steelBody(cylinder, {0, -impact.speed});
+  if (impact.smooth) steel.smoothNodes.assign(cylinder.nodes.size(), 1);
+  world.addBody(cylinder, steel);
 }
 
 }  // namespace yadefrag::fescenes

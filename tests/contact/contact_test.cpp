@@ -165,17 +165,11 @@ struct Roles {
   PassRule rule;
 };
 
-TEST(PassRule, DoublePassLetsAllBeSlaves) {
+TEST(PassRule, InTwoPassesAndWithABodyThatCracksAllAreSlaves) {
   SurfaceScene scene;
   scene.addBody(squareOf(2));
   scene.addBody(squareOf(5));
   Roles(scene, 2).expectAllSlaves();
-}
-
-TEST(PassRule, WithABodyThatCracksAllAreSlaves) {
-  SurfaceScene scene;
-  scene.addBody(squareOf(2));
-  scene.addBody(squareOf(5));
   for (const std::size_t brittle : {0U, 1U}) Roles(scene, 1, brittle).expectAllSlaves();
 }
 

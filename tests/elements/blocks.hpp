@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/checks.hpp"
+#include "elements/element_state.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/shapes.hpp"
 #include "meshing/triangulate.hpp"
@@ -25,16 +26,25 @@ inline constexpr ElasticMaterial kSteel{
 inline ComponentId appendBlock(Model& model, Vec2 low, Vec2 high, int nx, int ny,
                                const ElasticMaterial& material = kSteel, double thickness = 1) {
   TriangleMesh mesh = structuredRectangle(low, high, nx, ny);
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> shift(-.2, .2);
-  for (Vec2& x : mesh.nodes) {
-    const Vec2 by{shift(random) * (high.x - low.x) / nx, shift(random) * (high.y - low.y) / ny};
-    if (x.x > low.x && x.x < high.x && x.y > low.y && x.y < high.y) x += by;
-  }
+  test::jitter(
+      mesh, {.2 * (high.x - low.x) / nx, .2 * (high.y - low.y) / ny}, std::mt19937_64(5),
+      [&](Vec2 x) {
+        return x.x > low.x && x.x < high.x && x.y > low.y && x.y < high.y ? Vec2{1, 1} : Vec2{};
+      });
   Component component;
   component.material = material;
   component.thickness = thickness;
   return appendBody(model, mesh, component);
+}
+
+inline Model modelOf(const TriangleMesh& mesh, const ElasticMaterial& material,
+                     ElementKind element = ElementKind::kLinear) {
+  Component component;
+  component.material = material;
+  component.element = element;
+  Model model;
+  appendBody(model, mesh, component);
+  return model;
 }
 
 /// A square of 20 mm.
@@ -48,6 +58,10 @@ inline Model square(int side = 8, const ElasticMaterial& material = kSteel, doub
 inline Model smoothed(Model model) {
   for (Component& component : model.components) component.element = ElementKind::kSmoothed;
   return model;
+}
+
+inline void turn(Model& model, double angle) {
+  for (Vec2& x : model.nodes.position) x = test::turnedBy(x, angle);
 }
 
 /// (N) Forces at the present positions: those of a step of no length.
@@ -101,12 +115,31 @@ inline double trueCriticalStep(const Model& model) {
   return 2 / std::sqrt(omega2);
 }
 
+/// Moves all nodes by up to `most` (m); forces are then the slopes of the energy, by differences of
+/// a way `h` (m) to either side, but for `tolerance` of the largest force.
+inline void expectForcesAreTheGradient(Model model, double most, double h, double tolerance) {
+  shake(model, most);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    model.nodes.position[n] += model.nodes.velocity[n];
+  const std::vector<Vec2> forces = forcesOf(model);
+  double largest = 0;
+  for (const Vec2 force : forces) largest = std::max(largest, norm(force));
+  for (std::size_t n = 0; n < forces.size(); ++n)
+    for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+      const auto at = [&](double way) {
+        Model moved = model;
+        moved.nodes.position[n].*axis += way;
+        return strainEnergy(moved, 0);
+      };
+      EXPECT_NEAR(forces[n].*axis, (at(-h) - at(h)) / (2 * h), tolerance * largest);
+    }
+}
+
 /// A model, its solver and its ledger, stepped together.
 struct Stepper {
   Model model;
   double dt;
   StepSettings settings = {};
-  int threads = 1;
   InstructionSet set = widestInstructionSet();
   double last = 0;  // s, the step before
   EnergyLedger ledger = {};
@@ -116,8 +149,8 @@ struct Stepper {
   void step(int count = 1, std::span<const Vec2> outer = {}) {
     for (int i = 0; i < count; ++i) {
       const StepLength length(dt, last);
-      dynamics.predict(model, length, settings, outer, threads);
-      dynamics.finish(model, length, settings, outer, {}, ledger, threads);
+      dynamics.predict(model, length, settings, outer, 1);
+      dynamics.finish(model, length, settings, outer, {}, ledger);
       last = dt;
     }
   }
@@ -141,37 +174,39 @@ inline bool sameState(const Model& a, const Model& b) {
          p.thickness == q.thickness && p.strain == q.strain && p.temperature == q.temperature;
 }
 
-/// Any number of threads, any instruction set, and a solver that is built anew as after loading do
-/// not change the bits of a run of so many steps of `factor` of the critical one. Its end.
-inline Model expectSameBits(const Model& model, double factor, int steps,
-                            const StepSettings& settings = {}) {
+/// No instruction set changes the bits of a run of so many steps of `factor` of the critical one.
+/// Its end. Threads and loading: the scenes of step/eventful_scenes.cpp.
+inline Model expectSameForAnySet(const Model& model, double factor, int steps,
+                                 const StepSettings& settings = {}) {
   const double dt = factor * criticalTimeStep(model, settings.viscosity);
-  const auto runWith = [&](int threads, InstructionSet set) {
-    Stepper run{.model = model, .dt = dt, .settings = settings, .threads = threads, .set = set};
+  const auto runWith = [&](InstructionSet set) {
+    Stepper run{.model = model, .dt = dt, .settings = settings, .set = set};
     run.start();
-    run.step(steps / 2);
+    run.step(steps);
     return run;
   };
-  Stepper one = runWith(1, InstructionSet::kBaseline);
-  Stepper rebuilt{
-      .model = one.model, .dt = dt, .settings = settings, .last = one.last, .ledger = one.ledger};
-  rebuilt.start();
-  one.step(steps / 2);
-  const auto expectAsOne = [&](Stepper& other) {
-    other.step(steps / 2);
+  const Stepper one = runWith(InstructionSet::kBaseline);
+  for (const InstructionSet set : {bestInstructionSet(), widestInstructionSet()}) {
+    const Stepper other = runWith(set);
     EXPECT_TRUE(sameState(one.model, other.model));
     EXPECT_EQ(one.ledger.external, other.ledger.external);
     EXPECT_EQ(one.ledger.damping, other.ledger.damping);
-  };
-  expectAsOne(rebuilt);
-  for (const auto& [threads, set] :
-       {std::pair{2, InstructionSet::kBaseline}, std::pair{1, bestInstructionSet()},
-        std::pair{3, widestInstructionSet()}}) {
-    SCOPED_TRACE(threads);
-    Stepper other = runWith(threads, set);
-    expectAsOne(other);
   }
   return one.model;
+}
+
+/// Laws for which the loops differ: vector loops, a table, for which there is none, and a cone.
+inline std::vector<PlasticMaterial> plasticLaws() {
+  PlasticMaterial johnsonCook{.yieldStress = 400e6, .hardening = 300e6, .hardeningExponent = .3};
+  johnsonCook.rateFactor = .02, johnsonCook.heatCapacity = 480;
+  johnsonCook.thermalExponent = 1, johnsonCook.meltTemperature = 1800;
+  const PlasticMaterial straight{.yieldStress = 400e6, .hardening = 1e9, .heatCapacity = 480};
+  PlasticMaterial rated = straight;
+  rated.rateFactor = .01;
+  const PlasticMaterial power{.yieldStress = 400e6, .hardeningExponent = .2, .offsetStrain = .01};
+  const PlasticMaterial table{.table = {{0, 400e6}, {.01, 450e6}}};
+  const PlasticMaterial cone{.cohesion = 300e6, .internalFriction = .4, .dilation = .2};
+  return {johnsonCook, {.yieldStress = 400e6}, straight, rated, power, table, cone};
 }
 
 }  // namespace yadefrag

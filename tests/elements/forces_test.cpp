@@ -13,12 +13,6 @@
 namespace yadefrag {
 namespace {
 
-double energyOf(const Model& model) { return strainEnergy(model, 0); }
-
-void turn(Model& model, double angle) {
-  for (Vec2& x : model.nodes.position) x = test::turnedBy(x, angle);
-}
-
 /// Cauchy stress of the stretches 1 + a and 1 + b, which the law gives exactly at any size.
 void checkPatch(const ElasticMaterial& material, double cxx, double cxy, ElementKind element) {
   const double a = .02;
@@ -66,30 +60,13 @@ TEST(Forces, UniformPlaneStressIsExact) {
     checkPatch(material, e, e * .3, kind);
 }
 
-void checkGradient(Model model) {
-  turn(model, 2);
-  shake(model, 3e-4);
-  for (std::size_t n = 0; n < model.nodes.size(); ++n)
-    model.nodes.position[n] += model.nodes.velocity[n];
-  const std::vector<Vec2> force = forcesOf(model);
-  const double h = 1e-8;
-  double largest = 0;
-  for (const Vec2 f : force) largest = std::max(largest, norm(f));
-  for (std::size_t n = 0; n < force.size(); ++n)
-    for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
-      Model moved = model;
-      moved.nodes.position[n].*axis += h;
-      const double after = energyOf(moved);
-      moved.nodes.position[n].*axis -= 2 * h;
-      // Rounding of the energies over 2h: some 1e-8 of the largest force.
-      EXPECT_NEAR(force[n].*axis, (energyOf(moved) - after) / (2 * h), 1e-7 * largest);
-    }
-}
-
 TEST(Forces, AreMinusTheGradientOfTheEnergy) {
-  checkGradient(square(3, kSteel, .7));
-  checkGradient(smoothed(square(3, kSteel, .7)));
-  checkGradient(smoothed(square(3, {.young = 2e6, .poisson = .49, .density = 1000})));
+  for (Model model : {square(3, kSteel, .7), smoothed(square(3, kSteel, .7)),
+                      smoothed(square(3, {.young = 2e6, .poisson = .49, .density = 1000}))}) {
+    turn(model, 2);
+    // Rounding of the energies over 2h: some 1e-8 of the largest force.
+    expectForcesAreTheGradient(model, 3e-4, 1e-8, 1e-7);
+  }
 }
 
 void checkRotation(const Model& model) {
@@ -169,30 +146,22 @@ void checkModes(const Model& model, double least) {
   EXPECT_GT(modes[3], least * stiffest);
 }
 
-Model bodyOf(const TriangleMesh& mesh, const ElasticMaterial& material) {
-  Model model;
-  Component component;
-  component.material = material;
-  component.element = ElementKind::kSmoothed;
-  appendBody(model, mesh, component);
-  return model;
-}
-
 TEST(Smoothed, NoMotionButTheRigidOnesIsWithoutEnergy) {
   for (const double poisson : {0., .3, .49}) {
     const ElasticMaterial material{.young = 1, .poisson = poisson, .density = 1};
+    const auto bodyOf = [&](const TriangleMesh& mesh) {
+      return modelOf(mesh, material, ElementKind::kSmoothed);
+    };
     for (const QuadPattern pattern : {QuadPattern::kUnionJack, QuadPattern::kCrossed})
-      checkModes(bodyOf(structuredRectangle({0, 0}, {1, 1}, 4, 4, pattern), material), 1e-3);
-    checkModes(bodyOf(structuredRectangle({0, 0}, {1, 1}, 1, 1), material), 1e-3);
-    checkModes(bodyOf(triangulate({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}, .2), material), 1e-4);
+      checkModes(bodyOf(structuredRectangle({0, 0}, {1, 1}, 4, 4, pattern)), 1e-3);
+    checkModes(bodyOf(structuredRectangle({0, 0}, {1, 1}, 1, 1)), 1e-3);
+    checkModes(bodyOf(triangulate(test::rectangle({0, 0}, {1, 1}), .2)), 1e-4);
   }
 }
 
 TEST(Smoothed, ALoneTriangleIsALinearOne) {
-  TriangleMesh mesh;
-  mesh.nodes = {{0, 0}, {.01, .001}, {.004, .008}};
-  mesh.triangles = {{0, 1, 2}};
-  Model model = bodyOf(mesh, kSteel);
+  Model model =
+      modelOf(test::oneTriangle({0, 0}, {.01, .001}, {.004, .008}), kSteel, ElementKind::kSmoothed);
   model.nodes.position = {{1e-4, 2e-4}, {.0101, .0012}, {.0038, .0083}};
   Model linear = model;
   linear.components[0].element = ElementKind::kLinear;

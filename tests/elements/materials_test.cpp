@@ -18,19 +18,11 @@ BodyMaterial elastic(double young, double density, double poisson = 0) {
   return {{.young = young, .poisson = poisson, .density = density, .planeStress = true}, {}, 0, {}};
 }
 
-Vec2 middleOf(const TriangleMesh& mesh, std::size_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return (1. / 3) * (mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c]);
-}
-
 /// `numberAt(x, y)`: the number of the material there.
 template <class NumberAt>
 MaterialPlaces placed(const TriangleMesh& mesh, std::vector<BodyMaterial> materials,
                       NumberAt numberAt) {
-  MaterialPlaces places{std::move(materials), {}};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    places.ofTriangle.push_back(static_cast<std::uint32_t>(numberAt(middleOf(mesh, t))));
-  return places;
+  return {std::move(materials), test::byTriangle<std::uint32_t>(mesh, numberAt)};
 }
 
 Model modelOf(const TriangleMesh& mesh, const MaterialPlaces& places) {

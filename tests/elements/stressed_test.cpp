@@ -63,11 +63,10 @@ Model bodies() {
 void distort(Model& model, double most) {
   shake(model, most * 4e-4);
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-    const Vec2 x = model.nodes.position[n] + model.nodes.velocity[n];
-    model.nodes.position[n] = {std::cos(2.) * x.x - std::sin(2.) * x.y,
-                               std::sin(2.) * x.x + std::cos(2.) * x.y};
+    model.nodes.position[n] += model.nodes.velocity[n];
     model.nodes.velocity[n] = {};
   }
+  turn(model, 2);
 }
 
 /// By element: does a range hold it? Checks that ranges are small and ascending.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "extremes/limits.hpp"
+#include "fracture/overlaps.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -42,7 +43,7 @@ inline void addBlock(World& world, const BlockCollision& collision, Vec2 low, in
   TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, parts, parts);
   for (Vec2& node : mesh.nodes)
     node = collision.shift + turnedBy(collision.size * node, collision.turn);
-  world.addBody(mesh, moving(mesh, material, turnedBy({speed, 0}, collision.turn)));
+  addMoving(world, mesh, material, turnedBy({speed, 0}, collision.turn));
 }
 
 inline World worldOf(const BlockCollision& collision) {

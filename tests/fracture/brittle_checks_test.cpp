@@ -152,14 +152,11 @@ TEST(CheckCohesiveResolution, AcceptsAStableStepWhereTheZoneIsResolved) {
 TEST(CheckCohesiveResolution, HasNothingToResolveWithoutAFractureEnergyOrAnInnerEdge) {
   EXPECT_EQ(saidAtStep(body(4, {.tensileStrength = 300e6}), 1), "");
   EXPECT_EQ(saidAtStep(body(4, {}), 1), "");
-  TriangleMesh mesh;
-  mesh.nodes = {{0, 0}, {.01, 0}, {0, .01}};
-  mesh.triangles = {{0, 1, 2}};
   Component component;
   component.material = kCeramic;
   component.brittle = kBrittle;
   Model one;
-  appendBody(one, mesh, component);
+  appendBody(one, test::oneTriangle({0, 0}, {.01, 0}, {0, .01}), component);
   EXPECT_EQ(saidAtStep(one, 1), "");
 }
 

@@ -46,12 +46,10 @@ World stressedBars(bool isDeformed) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (const TriangleMesh& mesh : {barFrom(0, .04, 2), barFrom(.04, .08, 7), barFrom(.1, .12, 3)}) {
-    BodySpec spec = resting(mesh);
-    spec.brittle.tensileStrength = 1e8, spec.brittle.fractureEnergy = 1e4;
+    BodySpec spec = brittle(kMaterial, 1e8, 1e4);
     spec.brittle.weibullModulus = 5;
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-      spec.velocity[n] = {unit(random), unit(random)};
-      const Vec2 at = mesh.nodes[n];
+    for (const Vec2 at : mesh.nodes) {
+      spec.velocity.push_back({unit(random), unit(random)});
       if (isDeformed) spec.displacement.push_back({1e-3 * at.x, 2e-3 * at.x + 4e-4 * at.y});
     }
     if (!isDeformed) spec.stress.assign(mesh.triangles.size(), {1e6, -2e6, 5e5});
@@ -131,9 +129,7 @@ World rubble(std::mt19937& random, bool cracks) {
       const double end = x + draw(.1, .3);
       const Polygon stone{turnedLoop(box({x, y}, {end, high}), angle), {}};
       const PolygonMesh mesh = triangulate(stone, SizeField(draw(.015, .04)));
-      BodySpec spec = resting(mesh);
-      if (cracks) spec.brittle.tensileStrength = 1e8, spec.brittle.fractureEnergy = 1e5;
-      world.addBody(mesh, spec);
+      world.addBody(mesh, cracks ? brittle(kMaterial, 1e8, 1e5) : resting(mesh));
       x = end;
     }
     y = high;
@@ -183,8 +179,7 @@ TEST(Conform, CornersAndNodesWithSmallErrorsAreJoinedWithinTheTolerance) {
     EXPECT_EQ(at(firstNode(world.model, a)), at(lastNode(world.model, b)));
     EXPECT_EQ(at(lastNode(world.model, a)), at(firstNode(world.model, b)));
   }
-  const double dt = .5 * world.criticalTimeStep();
-  for (int i = 0; i < 20; ++i) world.step(dt);
+  stepFor(world, .5, 20);
   EXPECT_NEAR(world.strainEnergy(), 0, 1e-12);  // gaps were closed without stress
 }
 
@@ -212,9 +207,8 @@ TEST(Conform, ADiscIsBondedIntoAHoleOfOtherSides) {
     const CommonSides found = world.bondAll(2e-4, 1e8, 1e5);
     EXPECT_EQ(found.unmatched, 0U);
     EXPECT_NEAR(bondedLength(world) / (2 * M_PI * .01), 1, .01);
-    const double dt = .5 * world.criticalTimeStep();
     const double energy = totalEnergy(world);
-    for (int i = 0; i < 200; ++i) world.step(dt);
+    stepFor(world, .5, 200);
     EXPECT_NEAR(totalEnergy(world) / energy, 1, 1e-9) << smooth;
   }
 }
@@ -250,15 +244,13 @@ TEST(Conform, HeldNodesPressureAndLoadsFollow) {
   EXPECT_EQ(world.loads.absorbing.segments.size(), world.loads.pressures[0].segments.size());
   for (std::size_t n = nodes; n < world.model.nodes.size(); ++n)
     EXPECT_EQ(world.model.nodes.load[n], Vec2());
-  const double dt = .5 * world.criticalTimeStep();
-  for (int i = 0; i < 50; ++i) world.step(dt);
+  stepFor(world, .5, 50);
 }
 
 TEST(Conform, ARefusedBondLeavesTheWorldUnchanged) {
   // All nodes move by a motion, so that none slides, and two corners are too near each other.
   World world = tJunction(.05, 0, .01);
-  std::vector<NodeId> all;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n) all.emplace_back(n);
+  const std::vector<NodeId> all = nodesWhere(world.model.nodes, [](Vec2) { return true; });
   world.prescribeMotion(all, kHeldXY, {.speedX = TimeTable({0, 1}, {1, 1})});
   const std::string before = saved(world);
   const std::string text = sentenceOf([&] { world.bond(kFirst, kThird, 1e6, 1e4); });

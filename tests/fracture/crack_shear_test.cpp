@@ -191,11 +191,8 @@ TEST(CrackShear, ObliqueHoldingIsNoException) {
   mesh.nodes = {-kHalf * along, kHalf * along, -kHalf * normal, kHalf * normal};
   mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
   mesh.loops = mesh.loopVertices = {{0, 3, 1, 2}};
-  BodySpec spec;
-  spec.material = kStiff;
+  BodySpec spec = brittle(kStiff, kStrength, kEnergy);
   spec.friction = .5;
-  spec.brittle.tensileStrength = kStrength;
-  spec.brittle.fractureEnergy = kEnergy;
   spec.held = {kHeldY, kHeldY, 0, 0};
   for (const Vec2 x : mesh.nodes)
     spec.displacement.push_back(1.3 * kWeak * kStrength / 275e11 * dot(x, normal) * normal);
@@ -235,13 +232,9 @@ double spinOf(const World& world) { return momentsOf(world.model.nodes).angular;
 struct Torn {
   Torn(const SpinLaw& law, Vec2 apart) {
     const TriangleMesh mesh =
-        triangulate({{{-.01, -.01}, {.01, -.01}, {.01, .01}, {-.01, .01}}, {}}, 2.5e-3,
-                    {NodeLayout::kScattered, 1});
-    BodySpec spec;
-    spec.material = {1e9, .2, 2000, false};
+        triangulate(rectangle({-.01, -.01}, {.01, .01}), 2.5e-3, {NodeLayout::kScattered, 1});
+    BodySpec spec = brittle({1e9, .2, 2000, false}, 1e6, law.energy);
     spec.friction = law.friction;
-    spec.brittle.tensileStrength = 1e6;
-    spec.brittle.fractureEnergy = law.energy;
     spec.brittle.shearFactor = law.beta;
     spec.brittle.shearEnergyFactor = law.kappa;
     spec.brittle.softening = softeningNamed(law.curve);

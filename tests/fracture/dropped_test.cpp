@@ -182,8 +182,7 @@ TEST(DropFragmentsOf, TheyDoNotMoveAgain) {
   const double dt = .8 * world.criticalTimeStep();
   for (int i = 0; i < 300; ++i) world.step(dt);
   ASSERT_GT(world.dropped.count, 0U);
-  std::vector<NodeId> all;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n) all.emplace_back(n);
+  const std::vector<NodeId> all = nodesWhere(world.model.nodes, [](Vec2) { return true; });
   world.prescribe(all, kFree, {});
   world.setLoads(std::vector<Vec2>(all.size(), {1, 1}));
   world.dynamicsSettings.gravity = {0, -10};
@@ -199,11 +198,8 @@ TEST(DropFragmentsOf, TheyDoNotMoveAgain) {
 /// A plate of 40 × 20 mm whose short ends fly apart.
 World plate(double fractureEnergy, ElementKind element) {
   World world;
-  const TriangleMesh mesh = triangulate({{{0, 0}, {.04, 0}, {.04, .02}, {0, .02}}, {}}, 2e-3);
-  BodySpec spec;
-  spec.material = {32e9, .2, 2450, false};
-  spec.brittle.tensileStrength = 3e6;
-  spec.brittle.fractureEnergy = fractureEnergy;
+  const TriangleMesh mesh = triangulate(rectangle({0, 0}, {.04, .02}), 2e-3);
+  BodySpec spec = brittle({32e9, .2, 2450, false}, 3e6, fractureEnergy);
   spec.brittle.strengthScatter = .1;
   spec.element = element;
   for (const Vec2& x : mesh.nodes) spec.velocity.push_back({100 * (x.x - .02), 20 * x.y});

@@ -17,6 +17,7 @@
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 #include "meshing/triangulate.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -215,13 +216,7 @@ TEST(LikelyLargestStrength, IsExceededByOneEdgeOnAverage) {
 constexpr double kYoung = 70e9, kGlassStrength = 60e6, kEnergy = 300;  // zone: 5.8 mm
 constexpr double kZone = kYoung * kEnergy / (kGlassStrength * kGlassStrength);
 
-BodyMaterial glass() {
-  BodyMaterial one;
-  one.material = {kYoung, .2, 2500, false};
-  one.brittle.tensileStrength = kGlassStrength;
-  one.brittle.fractureEnergy = kEnergy;
-  return one;
-}
+BodyMaterial glass() { return brittle({kYoung, .2, 2500, false}, kGlassStrength, kEnergy); }
 
 /// Triangles from a tenth of the zone to the whole of it: some resolve it.
 TriangleMesh graded() {

@@ -84,14 +84,7 @@ TEST(Impact, NewFacesTouchInTheNextStep) {
   hold(spec, mesh, kHeldXY, [](Vec2 at) { return at.y < 1e-9 || at.y > .01 - 1e-9; });
   for (const Vec2 at : mesh.nodes) spec.displacement.push_back({0, -1e-3 * at.y});
   world.addBody(mesh, spec);
-  CrackEdges& edges = world.fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Side side = edges.side(EdgeId(i), 0);
-    for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
-      if (std::abs(world.model.nodes.reference[node.value].x -
-                   world.model.nodes.reference[node.value].y) > 1e-9)
-        edges.strength[i] = INFINITY;
-  }
+  crackOnly(world, [](Vec2 x) { return std::abs(x.x - x.y) < 1e-9; });
   const double dt = .8 * world.criticalTimeStep();
   const std::size_t segments = world.surfaces.segments();
   int faces = -1;  // step in which the first ones came
@@ -135,32 +128,25 @@ struct Spall {
   std::uint64_t cracks = 0;
 };
 
-/// Moves the nodes inside at random, by at most `share` of an element each way.
-void jitter(TriangleMesh& mesh, double begin, double end, double size, double share) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> any(-share * size, share * size);
-  for (Vec2& x : mesh.nodes) {
-    const Vec2 moved{any(random), any(random)};
-    if (x.x > begin + size / 8 && x.x < end - size / 8 && x.y > size / 8 &&
-        x.y < kHeight - size / 8)
-      x += moved;
-  }
-}
-
 ComponentId addPlate(World& world, double begin, double end, double size, double speed,
                      double strength, double share) {
   const int nx = static_cast<int>(std::lround((end - begin) / size));
   const int ny = static_cast<int>(std::lround(kHeight / size));
   TriangleMesh mesh =
       structuredRectangle({begin, 0}, {end, kHeight}, nx, ny, QuadPattern::kCrossed);
-  jitter(mesh, begin, end, size, share);
+  jitter(mesh, share * Vec2{size, size}, std::mt19937(1), [=](Vec2 x) {
+    const bool inside = x.x > begin + size / 8 && x.x < end - size / 8 && x.y > size / 8 &&
+                        x.y < kHeight - size / 8;
+    return inside ? Vec2{1, 1} : Vec2{};
+  });
   BodySpec spec = moving(mesh, kCeramic, {speed, 0});
   spec.brittle.tensileStrength = strength;
   hold(spec, mesh, kHeldY, [](Vec2 at) { return at.y < 1e-9 || at.y > kHeight - 1e-9; });
   return world.addBody(mesh, spec);
 }
 
-/// `relative`: strength over the pulse's amplitude; `share`: see jitter.
+/// `relative`: strength over the pulse's amplitude; `share`: of an element, by which nodes inside
+/// are moved each way.
 Spall strike(double size, double flyer, double relative, double share = 0) {
   constexpr double speed = 40;  // m/s
   World world;

@@ -15,9 +15,7 @@ namespace yadefrag::test {
 
 /// Of rock: c = β·ft = 15 MPa, φ = 0.6 rad.
 inline BodySpec rock() {
-  BodySpec spec;
-  spec.material = {20e9, .2, 2500, false};
-  spec.brittle.tensileStrength = 5e6;
+  BodySpec spec = brittle({20e9, .2, 2500, false}, 5e6);
   spec.brittle.shearFactor = 3;
   spec.friction = std::tan(.6);
   return spec;
@@ -55,6 +53,14 @@ inline Polygon plateWithNotch(Vec2 low, Vec2 high, Vec2 tip, double size) {
 /// Nodes at the height `y` (m) of the stress-free shape.
 inline std::vector<NodeId> nodesAtHeight(const World& world, double y) {
   return nodesWhere(world.model.nodes, [y](Vec2 x) { return std::abs(x.y - y) < 1e-9; });
+}
+
+/// Drawn along x at a constant rate (1/s) from the start on, so that the strain is even; the ends
+/// keep their velocities.
+inline void draw(BodySpec& spec, const TriangleMesh& mesh, double length, double rate) {
+  spec.velocity.clear();
+  for (const Vec2 x : mesh.nodes) spec.velocity.push_back({rate * (x.x - length / 2), 0});
+  hold(spec, mesh, kHeldX, [=](Vec2 at) { return at.x < 1e-9 || at.x > length - 1e-9; });
 }
 
 /// What a refused body is said to be; the world stays empty.

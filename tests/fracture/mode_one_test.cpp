@@ -178,28 +178,17 @@ constexpr double kStiff = 10e9, kSoft = 1e9, kRate = 1;      // Pa, Pa, 1/s
 constexpr double kLength = .1, kHeight = .04, kSize = 5e-3;  // m
 
 BodyMaterial brittle(double young, double strength, double energy) {
-  BodyMaterial one;
-  one.material = {young, 0, 1000, true};
-  one.brittle.tensileStrength = strength;
-  one.brittle.fractureEnergy = energy;
-  return one;
+  return test::brittle({young, 0, 1000, true}, strength, energy);
 }
 
-Vec2 middleOf(const TriangleMesh& mesh, std::size_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return (1. / 3) * (mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c]);
-}
-
-/// A bar that is drawn along x at a constant rate from the start on, so that the strain is even
-/// where the layers lie along it.
+/// The strain is even where the layers lie along the bar.
 template <class NumberAt>
-BodySpec drawn(const TriangleMesh& mesh, std::vector<BodyMaterial> materials, NumberAt numberAt) {
+BodySpec drawn(const TriangleMesh& mesh, std::vector<BodyMaterial> materials, NumberAt numberAt,
+               double rate = kRate) {
   BodySpec spec;
-  for (const Vec2 node : mesh.nodes) spec.velocity.push_back({kRate * (node.x - kLength / 2), 0});
-  hold(spec, mesh, kHeldX, [](Vec2 at) { return at.x < 1e-9 || at.x > kLength - 1e-9; });
+  draw(spec, mesh, kLength, rate);
   spec.materials.materials = std::move(materials);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    spec.materials.ofTriangle.push_back(static_cast<std::uint32_t>(numberAt(middleOf(mesh, t))));
+  spec.materials.ofTriangle = byTriangle<std::uint32_t>(mesh, numberAt);
   return spec;
 }
 
@@ -209,18 +198,6 @@ TriangleMesh barMesh() {
 
 int lowerHalf(Vec2 at) { return at.y < kHeight / 2 ? 0 : 1; }
 int leftHalf(Vec2 at) { return at.x < kLength / 2 ? 0 : 1; }
-
-std::vector<JointEdge> interfaces(const TriangleMesh& mesh, double strength, double energy,
-                                  double atX) {
-  std::vector<JointEdge> edges;
-  for (const auto& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      if (a < b && std::abs(mesh.nodes[a].x - atX) < 1e-9 && std::abs(mesh.nodes[b].x - atX) < 1e-9)
-        edges.push_back({{a, b}, strength, energy});
-    }
-  return edges;
-}
 
 /// (1) The strain at the first crack, and whose it is: the material of either side, as a set of
 /// bits.
@@ -286,12 +263,10 @@ TEST(Mixed, AnEdgeBetweenTwoMaterialsIsAsTheWeakerOne) {
 void checkInterface(std::vector<BodyMaterial> materials) {
   constexpr double kWeak = 1e6, kEnergy = 20;
   const TriangleMesh mesh = barMesh();
-  BodySpec spec = drawn(mesh, std::move(materials), leftHalf);
-  for (Vec2& v : spec.velocity) v = {};
   // Slowly: the waves of it have a hundredth of the stress that breaks it.
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    spec.velocity[n].x = .01 * (mesh.nodes[n].x - kLength / 2) / kLength * 2;
-  spec.places.joints = interfaces(mesh, kWeak, kEnergy, kLength / 2);
+  BodySpec spec = drawn(mesh, std::move(materials), leftHalf, .02 / kLength);
+  spec.places.joints =
+      jointsWhere(mesh, kWeak, kEnergy, [](Vec2 x) { return std::abs(x.x - kLength / 2) < 1e-9; });
   ASSERT_EQ(spec.places.joints.size(), 8U);
   World world;
   world.addBody(mesh, spec);
@@ -326,10 +301,10 @@ World inclusion(double strengthOfInclusion) {
       triangulate(outline, 5e-3, {NodeLayout::kScattered, 1}, INFINITY, lines);
   BodySpec spec;
   spec.materials.materials = {brittle(10e9, 3e6, 30), brittle(30e9, strengthOfInclusion, 30)};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    spec.materials.ofTriangle.push_back(norm(middleOf(mesh, t) - Vec2{.05, .05}) < .02 ? 1 : 0);
-  for (const Vec2 node : mesh.nodes) spec.velocity.push_back({2 * (node.x - .05), 0});
-  hold(spec, mesh, kHeldX, [](Vec2 x) { return x.x < 1e-9 || x.x > .1 - 1e-9; });
+  spec.materials.ofTriangle = byTriangle<std::uint32_t>(mesh, [](Vec2 x) {
+    return norm(x - Vec2{.05, .05}) < .02 ? 1 : 0;
+  });
+  draw(spec, mesh, .1, 2);
   World world;
   world.addBody(mesh, spec);
   const double dt = .3 * world.criticalTimeStep();

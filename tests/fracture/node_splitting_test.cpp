@@ -158,16 +158,6 @@ void crackEdges(Scene& scene, std::vector<EdgeId> batch) {
   relink(scene.surfaces, result.sides);
 }
 
-bool sameScene(const Scene& a, const Scene& b) {
-  return a.model.triangles.nodes == b.model.triangles.nodes &&
-         sameBits(a.model.nodes.position, b.model.nodes.position) &&
-         sameBits(a.model.nodes.mass, b.model.nodes.mass) &&
-         sameBits(a.model.nodes.load, b.model.nodes.load) && a.edges.ofNode == b.edges.ofNode &&
-         a.surfaces.segmentNode == b.surfaces.segmentNode &&
-         a.surfaces.segmentNext == b.surfaces.segmentNext && a.surfaces.next == b.surfaces.next &&
-         a.surfaces.piece == b.surfaces.piece && a.surfaces.loop == b.surfaces.loop;
-}
-
 /// Are the same corners of triangles the same node, whatever its number, of the same mass?
 void expectSamePartition(const Model& a, const Model& b) {
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
@@ -181,23 +171,21 @@ void expectSamePartition(const Model& a, const Model& b) {
     }
 }
 
-// A batch gives the same bits every time, and the same pieces as its edges one by one: only the
-// numbers of nodes and segments depend on the order.
+// A batch gives the same pieces as its edges one by one: only the numbers of nodes and segments
+// depend on the order.
 TEST(NodeSplitting, ABatchIsItsEdgesOneByOne) {
   RandomCracks random(9);
   for (int scene = 0; scene < 60 && !HasFailure(); ++scene) {
     World world;
     fill(world, random);
-    Scene once = sceneOf(world), again = once, single = once;
+    Scene once = sceneOf(world), single = once;
     std::vector<EdgeId> left = shuffledEdges(once.edges, random);
     while (!left.empty() && !HasFailure()) {
       const auto count = std::min(left.size(), static_cast<std::size_t>(1 + below(random, 90)));
       std::vector<EdgeId> batch(left.end() - static_cast<std::ptrdiff_t>(count), left.end());
       left.resize(left.size() - count);
       crackEdges(once, batch);
-      crackEdges(again, batch);
       for (const EdgeId edge : batch) crackEdges(single, {edge});
-      EXPECT_TRUE(sameScene(once, again));
       expectSamePartition(once.model, single.model);
       EXPECT_EQ(once.surfaces.segments(), single.surfaces.segments());
       EXPECT_EQ(countLists(once.surfaces.segmentNext), countLists(single.surfaces.segmentNext));

@@ -1,9 +1,9 @@
 #pragma once
 // How deep the deepest node is inside another piece or its own, and the deepest triangle inside
 // another: everything against everything, independently of surfaces, slaves, masters or flags. Tips
-// that pass each other may overlap without a node of either inside the other. An elastic cylinder
-// on a brittle block (fig. 15 of the paper, small), and what is measured while the block falls to
-// pieces.
+// that pass each other may overlap without a node of either inside the other. A run with a record:
+// points on the wrong side, and energy created. An elastic cylinder on a brittle block (fig. 15 of
+// the paper, small), and what is measured while the block falls to pieces.
 
 #include <algorithm>
 #include <array>
@@ -122,6 +122,37 @@ class Overlaps {
   std::vector<bool> onBoundary_;
 };
 
+/// (m) How deep the deepest boundary node is in another body or its own.
+inline double deepestNode(const World& world) { return Overlaps(world.model).deepest().depth; }
+
+struct RunResult {
+  double deepest = 0;       ///< of the shortest segment: a boundary node in a body
+  double penetration = 0;   ///< of the shortest segment: what the correction left
+  double growth = 0;        ///< of the start's energy: kinetic + strain
+  double drift = 0;         ///< of the start's energy: the ledger's total, either way
+  std::size_t touched = 0;  ///< rows with a force, over all steps
+};
+
+/// `every`: steps between two looks, which cost more than the steps.
+inline RunResult watch(World& world, int steps, int every, double ofCritical = .5) {
+  const double dt = ofCritical * world.criticalTimeStep();
+  const double start = world.kineticEnergy() + world.strainEnergy();
+  const double total = totalEnergy(world);
+  RunResult result;
+  for (int i = 0; i < steps; ++i) {
+    world.step(dt);
+    result.penetration =
+        std::max(result.penetration, world.contact.maxPenetration() / world.search.shortest);
+    result.touched += world.contact.rows().size();
+    if (i % every != 0) continue;
+    result.deepest = std::max(result.deepest, deepestNode(world) / world.search.shortest);
+    const double now = world.kineticEnergy() + world.strainEnergy();
+    result.growth = std::max(result.growth, now / start - 1);
+    result.drift = std::max(result.drift, std::abs(totalEnergy(world) / total - 1));
+  }
+  return result;
+}
+
 /// (m) Shortest boundary segment of the stress-free bodies, faces of cracks included.
 inline double shortestSide(const World& world) {
   double least = INFINITY;
@@ -175,15 +206,12 @@ struct ImpactResult {
 
 inline World impact(const ImpactSetting& setting) {
   constexpr double kWidth = 20e-3, kHeight = 10e-3, kRadius = 5e-3;  // m
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   world.contactSettings.constants = setting.constants;
   world.threads = setting.threads;
   const TriangleMesh block = triangulate({box({-kWidth / 2, -kHeight}, {kWidth / 2, 0}), {}},
                                          setting.size, {setting.nodes});
-  BodySpec ceramic = moving(block, {370e9, .22, 3900, false}, {0, 0});
-  ceramic.brittle.tensileStrength = 300e6;
-  ceramic.brittle.fractureEnergy = setting.fractureEnergy;
+  BodySpec ceramic = brittle({370e9, .22, 3900, false}, 300e6, setting.fractureEnergy);
   ceramic.brittle.strengthScatter = .1;
   ceramic.friction = .3;
   if (setting.held) hold(ceramic, block, kHeldXY, [](Vec2 at) { return at.y < -kHeight + 1e-9; });

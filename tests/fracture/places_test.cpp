@@ -24,25 +24,18 @@ constexpr double kRate = 1;                                                    /
 using Field = std::function<double(Vec2)>;
 
 std::vector<double> sampled(const TriangleMesh& mesh, const Field& field) {
-  std::vector<double> values;
-  for (const auto& [a, b, c] : mesh.triangles)
-    values.push_back(field((1. / 3) * (mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c])));
-  return values;
+  return byTriangle<double>(mesh, field);
 }
 
 TriangleMesh barMesh() {
   return structuredRectangle({0, 0}, {kLength, kHeight}, 20, 4, QuadPattern::kCrossed);
 }
 
-/// Drawn at a constant rate from the start on, so that the stress is even: E·rate·t.
+/// The stress is even: E·rate·t.
 BodySpec drawnBar(const TriangleMesh& mesh) {
-  BodySpec spec = moving(mesh, kMaterial, {0, 0});
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    spec.velocity[n] = {kRate * (mesh.nodes[n].x - kLength / 2), 0};
-  hold(spec, mesh, kHeldX, [](Vec2 at) { return at.x < 1e-9 || at.x > kLength - 1e-9; });
+  BodySpec spec = brittle(kMaterial, 10 * kWeak, 10 * kEnergy);
+  draw(spec, mesh, kLength, kRate);
   spec.thickness = kThickness;
-  spec.brittle.tensileStrength = 10 * kWeak;
-  spec.brittle.fractureEnergy = 10 * kEnergy;
   return spec;
 }
 

@@ -193,8 +193,8 @@ Spall exact(const RateEffect& effect) {
 
 /// Triangles of `size` (m), on an irregular mesh.
 Spall simulated(const RateEffect& effect, double size, std::uint64_t seed) {
-  const Polygon outline{{{0, 0}, {kBar, 0}, {kBar, kThick}, {0, kThick}}, {}};
-  const TriangleMesh mesh = triangulate(outline, {size}, {NodeLayout::kScattered, seed});
+  const TriangleMesh mesh =
+      triangulate(rectangle({0, 0}, {kBar, kThick}), {size}, {NodeLayout::kScattered, seed});
   BodySpec spec = moving(mesh, kConcrete, {});
   spec.brittle.tensileStrength = kSlowStrength;
   spec.brittle.shearFactor = 10;  // it does not shear under the pulse
@@ -262,12 +262,9 @@ struct Bar {
   std::uint64_t seed = 1;
 
   void addTo(World& world) const {
-    const Polygon outline{{{0, 0}, {kLength, 0}, {kLength, kHeight}, {0, kHeight}}, {}};
-    TriangleMesh mesh = triangulate(outline, {kSize}, {NodeLayout::kScattered, seed});
-    BodySpec spec;
-    spec.material = kWideConcrete;
-    spec.brittle.tensileStrength = strength;
-    spec.brittle.fractureEnergy = energy;
+    TriangleMesh mesh =
+        triangulate(rectangle({0, 0}, {kLength, kHeight}), {kSize}, {NodeLayout::kScattered, seed});
+    BodySpec spec = brittle(kWideConcrete, strength, energy);
     spec.brittle.rate = effect;
     spec.brittle.rateEnergyPower = power;
     hold(spec, mesh, kHeldXY, [](Vec2 x) { return x.x < 1e-9 || x.x > kLength - 1e-9; });
@@ -357,8 +354,7 @@ Bar breaking(double power = 1) {
 /// After 700 steps, in which the bar cracks.
 void breakApart(World& world, const Bar& bar) {
   bar.addTo(world);
-  const double dt = .1 * world.criticalTimeStep();
-  for (int n = 0; n < 700; ++n) world.step(dt);
+  stepFor(world, .1, 700);
   EXPECT_GT(world.fracture.numCracks(), 20U);
 }
 

@@ -34,6 +34,40 @@ inline Loop turnedLoop(Loop loop, double angle) {
 
 inline Loop box(Vec2 low, Vec2 high) { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
 
+inline Polygon rectangle(Vec2 low, Vec2 high) { return {box(low, high), {}}; }
+
+inline TriangleMesh oneTriangle(Vec2 a, Vec2 b, Vec2 c) {
+  TriangleMesh mesh;
+  mesh.nodes = {a, b, c};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.loops = {{0, 1, 2}};
+  return mesh;
+}
+
+inline Vec2 middleOf(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return (1. / 3) * (mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c]);
+}
+
+/// By triangle: the value at its middle.
+template <class Value, class At>
+std::vector<Value> byTriangle(const TriangleMesh& mesh, At at) {
+  std::vector<Value> values;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    values.push_back(static_cast<Value>(at(middleOf(mesh, t))));
+  return values;
+}
+
+/// Moves points at random, by up to `most` (m) in the directions that `isFree(x)` has, 1 or 0.
+template <class Random, class IsFree>
+void jitter(TriangleMesh& mesh, Vec2 most, Random random, IsFree isFree) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (Vec2& x : mesh.nodes) {
+    const Vec2 moved{most.x * any(random), most.y * any(random)}, free = isFree(x);
+    x += {free.x * moved.x, free.y * moved.y};
+  }
+}
+
 /// Corners at even angles, the first one at `start` (rad).
 inline Loop circle(Vec2 centre, double radius, int corners, double start = 0) {
   Loop loop;

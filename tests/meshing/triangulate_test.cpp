@@ -204,10 +204,7 @@ double criticalStep(const TriangleMesh& mesh) {
 }
 
 double latticeStep(double size) {
-  TriangleMesh one;
-  one.nodes = {{0, 0}, {size, 0}, {size / 2, size * std::sqrt(.75)}};
-  one.triangles = {{0, 1, 2}};
-  return criticalStep(one);
+  return criticalStep(oneTriangle({0, 0}, {size, 0}, {size / 2, size * std::sqrt(.75)}));
 }
 
 /// Largest relative deviation of the number of inner sides in each 5° from a uniform distribution.

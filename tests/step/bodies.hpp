@@ -1,6 +1,5 @@
 #pragma once
-// Bodies for the tests of whole steps: brittle and plastic ones, blocks that touch exactly. A run
-// with a record: points on the wrong side, and energy created.
+// Bodies for the tests of whole steps: brittle and plastic ones, blocks that touch exactly.
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +26,60 @@ inline BodySpec moving(const TriangleMesh& mesh, const ElasticMaterial& material
   return spec;
 }
 
+/// What cracks at a strength (Pa); without a fracture energy (J/m²) at once.
+inline BodySpec brittle(const ElasticMaterial& material, double strength, double energy = 0) {
+  BodySpec spec;
+  spec.material = material;
+  spec.brittle.tensileStrength = strength;
+  spec.brittle.fractureEnergy = energy;
+  return spec;
+}
+
+/// A rigid line from a to b with both sides.
+inline RigidSpec rigidLine(Vec2 a, Vec2 b, double friction = 0) {
+  RigidSpec spec;
+  spec.shape.nodes = {a, b};
+  spec.shape.loops = {{0, 1}};
+  spec.friction = friction;
+  spec.name = "line";
+  return spec;
+}
+
+inline World twoPasses() {
+  World world;
+  world.contactSettings.passes = 2;
+  return world;
+}
+
+inline ComponentId addMoving(World& world, const TriangleMesh& mesh,
+                             const ElasticMaterial& material, Vec2 velocity) {
+  return world.addBody(mesh, moving(mesh, material, velocity));
+}
+
+/// So many steps of a part of the critical one.
+inline void stepFor(World& world, double ofCritical, int count) {
+  const double dt = ofCritical * world.criticalTimeStep();
+  for (int i = 0; i < count; ++i) world.step(dt);
+}
+
 inline void hold(BodySpec& spec, const TriangleMesh& mesh, std::uint8_t held,
                  const std::function<bool(Vec2)>& where) {
   spec.held.resize(mesh.nodes.size());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     if (where(mesh.nodes[i])) spec.held[i] |= held;
+}
+
+/// Sides of which both ends are there, once each.
+inline std::vector<JointEdge> jointsWhere(const TriangleMesh& mesh, double strength, double energy,
+                                          const std::function<bool(Vec2)>& where) {
+  std::vector<JointEdge> joints;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      if (a < b && where(mesh.nodes[a]) && where(mesh.nodes[b]))
+        joints.push_back({{a, b}, strength, energy});
+    }
+  return joints;
 }
 
 /// The mesh of the outline turned by `degrees`, turned back: whatever the mesher prefers points
@@ -70,6 +118,47 @@ inline double mass(const World& world, ComponentId component) {
   return sum;
 }
 
+inline Vec2 meanVelocity(const World& world, ComponentId component) {
+  return (1 / mass(world, component)) * momentum(world, component);
+}
+
+/// (N) On a body.
+inline Vec2 contactForce(const World& world, ComponentId component) {
+  Vec2 sum;
+  for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
+    if (world.model.nodes.component[i] == component) sum += world.contact.forces()[i];
+  return sum;
+}
+
+/// (m) The middle of a triangle in the stress-free shape.
+inline Vec2 middleOf(const World& world, std::size_t triangle) {
+  const auto& [a, b, c] = world.model.triangles.nodes[triangle];
+  const std::vector<Vec2>& x = world.model.nodes.reference;
+  return (1. / 3) * (x[a.value] + x[b.value] + x[c.value]);
+}
+
+/// Only edges crack of which both ends are there in the stress-free shape.
+inline void crackOnly(World& world, const std::function<bool(Vec2)>& where) {
+  CrackEdges& edges = world.fracture.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Side side = edges.side(EdgeId(i), 0);
+    for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
+      if (!where(world.model.nodes.reference[node.value])) edges.strength[i] = INFINITY;
+  }
+}
+
+/// Adds the nodal forces (N/m) of a traction (Pa) on sides of the outline with both ends there.
+inline void addTraction(const TriangleMesh& mesh, Vec2 traction,
+                        const std::function<bool(Vec2)>& where, std::vector<Vec2>& loads) {
+  const auto& loop = mesh.loops[0];
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const std::uint32_t a = loop[k], b = loop[(k + 1) % loop.size()];
+    if (!where(mesh.nodes[a]) || !where(mesh.nodes[b])) continue;
+    for (const std::uint32_t end : {a, b})
+      loads[end] += norm(mesh.nodes[b] - mesh.nodes[a]) / 2 * traction;
+  }
+}
+
 /// A crack as a line of the stress-free shape.
 struct CrackLine {
   EdgeId edge;
@@ -105,14 +194,6 @@ inline std::vector<SlaveMaster> activesOf(const World& world) {
   return pairs;
 }
 
-struct RunResult {
-  double deepest = 0;       ///< of the shortest segment: a boundary node in another body
-  double penetration = 0;   ///< of the shortest segment: what the correction left
-  double growth = 0;        ///< of the start's energy: kinetic + strain
-  double drift = 0;         ///< of the start's energy: the ledger's total, either way
-  std::size_t touched = 0;  ///< rows with a force, over all steps
-};
-
 /// Rubber, soft enough that blows of some m/s deform bodies visibly.
 inline ElasticMaterial rubber() { return {1e7, .3, 1000, false}; }
 
@@ -134,55 +215,6 @@ inline std::vector<BodyLoop> loopsOf(const World& world) {
     }
   }
   return loops;
-}
-
-/// How often a ray from `point` to the right crosses a loop, and how far the loop is (m).
-inline void lookAt(const BodyLoop& loop, Vec2 point, bool& inside, double& distance) {
-  for (std::size_t i = 0; i < loop.points.size(); ++i) {
-    const Vec2 a = loop.points[i], b = loop.points[(i + 1) % loop.points.size()];
-    const Vec2 along = b - a;
-    if ((a.y > point.y) != (b.y > point.y) && point.x < along.x * (point.y - a.y) / along.y + a.x)
-      inside = !inside;
-    const double at = std::clamp(dot(point - a, along) / dot(along, along), 0., 1.);
-    distance = std::min(distance, norm(point - a - at * along));
-  }
-}
-
-/// (m) How deep the deepest boundary node is in another body.
-inline double deepestNode(const World& world) {
-  const std::vector<BodyLoop> loops = loopsOf(world);
-  double deepest = 0;
-  for (const BodyLoop& from : loops)
-    for (const Vec2 point : from.points)
-      for (std::size_t c = 0; c < world.model.components.size(); ++c) {
-        if (ComponentId(c) == from.component) continue;
-        bool inside = false;
-        double distance = INFINITY;
-        for (const BodyLoop& loop : loops)
-          if (loop.component == ComponentId(c)) lookAt(loop, point, inside, distance);
-        if (inside) deepest = std::max(deepest, distance);
-      }
-  return deepest;
-}
-
-/// `every`: steps between two looks, which cost more than the steps.
-inline RunResult watch(World& world, int steps, int every, double ofCritical = .5) {
-  const double dt = ofCritical * world.criticalTimeStep();
-  const double start = world.kineticEnergy() + world.strainEnergy();
-  const double total = totalEnergy(world);
-  RunResult result;
-  for (int i = 0; i < steps; ++i) {
-    world.step(dt);
-    result.penetration =
-        std::max(result.penetration, world.contact.maxPenetration() / world.search.shortest);
-    result.touched += world.contact.rows().size();
-    if (i % every != 0) continue;
-    result.deepest = std::max(result.deepest, deepestNode(world) / world.search.shortest);
-    const double now = world.kineticEnergy() + world.strainEnergy();
-    result.growth = std::max(result.growth, now / start - 1);
-    result.drift = std::max(result.drift, std::abs(totalEnergy(world) / total - 1));
-  }
-  return result;
 }
 
 // --- Blocks that touch exactly, as in masonry, jointed rock and dry stacks.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/fe_scenes.hpp"
 #include "core/checks.hpp"
+#include "fracture/overlaps.hpp"
 #include "meshing/polygon.hpp"
 #include "step/bodies.hpp"
 
@@ -24,12 +24,6 @@ TriangleMesh meshOf(std::vector<Vec2> outline, double size) {
   return triangulate(checkPolygon({std::move(outline), {}}), size);
 }
 
-World twoPasses() {
-  World world;
-  world.contactSettings.passes = 2;
-  return world;
-}
-
 void expectSound(const RunResult& result) {
   EXPECT_LE(result.deepest, kWrongSide);
   EXPECT_LE(result.growth, kGrowth);
@@ -42,10 +36,9 @@ class CornerOnCorner : public testing::TestWithParam<double> {};
 /// Blocks one on the other, their lateral faces aligned but for an offset.
 TEST_P(CornerOnCorner, BlockOnBlock) {
   World world = twoPasses();
-  const TriangleMesh low = structuredRectangle({0, 0}, {1, 1}, 6, 6);
-  const TriangleMesh high = structuredRectangle({GetParam(), 1}, {1 + GetParam(), 2}, 8, 8);
-  world.addBody(low, moving(low, rubber(), {0, 0}));
-  world.addBody(high, moving(high, rubber(), {0, -10}));
+  const Vec2 high{GetParam(), 1};
+  addMoving(world, structuredRectangle({0, 0}, {1, 1}, 6, 6), rubber(), {});
+  addMoving(world, structuredRectangle(high, high + Vec2{1, 1}, 8, 8), rubber(), {0, -10});
   expectSound(watch(world, 2000, 10));
 }
 
@@ -53,11 +46,9 @@ TEST_P(CornerOnCorner, BlockOnBlock) {
 TEST_P(CornerOnCorner, TipOnTip) {
   const double off = GetParam();
   World world = twoPasses();
-  const TriangleMesh left = meshOf({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, .2);
-  const TriangleMesh right =
-      meshOf({{2.05, off - 1}, {3.05, off}, {2.05, off + 1}, {1.05, off}}, .17);
-  world.addBody(left, moving(left, rubber(), {0, 0}));
-  world.addBody(right, moving(right, rubber(), {-10, 0}));
+  addMoving(world, meshOf({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, .2), rubber(), {});
+  addMoving(world, meshOf({{2.05, off - 1}, {3.05, off}, {2.05, off + 1}, {1.05, off}}, .17),
+            rubber(), {-10, 0});
   expectSound(watch(world, 2000, 10));
 }
 
@@ -74,10 +65,9 @@ TEST_P(SharpCorner, IsHitNearItsTip) {
   BodySpec held = moving(wedge, rubber(), {0, 0});
   hold(held, wedge, kHeldXY, [](Vec2 at) { return at.x < 1e-9; });
   const double y = .5 * side;
-  const TriangleMesh block =
-      meshOf({{x - .3, y - .25}, {x + .3, y - .25}, {x + .3, y + .25}, {x - .3, y + .25}}, .1);
   world.addBody(wedge, held);
-  world.addBody(block, moving(block, rubber(), {0, -5. * side}));
+  addMoving(world, meshOf(box({x - .3, y - .25}, {x + .3, y + .25}), .1), rubber(),
+            {0, -5. * side});
   expectSound(watch(world, 6000, 20));
 }
 
@@ -105,9 +95,8 @@ TEST_P(ConcaveCorner, TakesATip) {
   const bool narrow = n.half < 1;
   const Vec2 low{n.aside, narrow ? .35 : .3}, back{std::sin(n.lean), std::cos(n.lean)};
   const Vec2 top = low + (narrow ? 1 : .6) * back, across = n.tipHalf * rightOf(back);
-  const TriangleMesh tip = meshOf({low, top + across, top - across}, .1);
   world.addBody(notch, held);
-  world.addBody(tip, moving(tip, rubber(), {0, -n.speed}));
+  addMoving(world, meshOf({low, top + across, top - across}, .1), rubber(), {0, -n.speed});
   expectSound(watch(world, 4000, 20));
 }
 
@@ -168,9 +157,8 @@ TEST_P(Splinter, PricksABlock) {
   hold(held, block, kHeldXY, [](Vec2 at) { return at.y < 1e-9; });
   const Vec2 tip{.53, .505}, back{std::sin(tilt), std::cos(tilt)};
   const Vec2 aside = .0437 * rightOf(back);
-  const TriangleMesh needle = meshOf({tip, tip + back + aside, tip + back - aside}, .05);
   world.addBody(block, held);
-  world.addBody(needle, moving(needle, rubber(), {0, -2}));
+  addMoving(world, meshOf({tip, tip + back + aside, tip + back - aside}, .05), rubber(), {0, -2});
   expectSound(watch(world, 3000, 20));
 }
 
@@ -190,11 +178,9 @@ TEST(SmoothGap, ClosesLaterByTheHalfpointsOfBothBalls) {
     for (const int k : {0, 1}) {
       const TriangleMesh mesh =
           triangulate({circle({k * (2 * kRadius + kGap), 0}, kRadius, sides), {}}, side);
-      BodySpec spec;
-      spec.material = {1e7, .3, 1000, false};
+      BodySpec spec = moving(mesh, rubber(), {k == 0 ? kSpeed : 0, 0});
       spec.selfContact = false;
-      spec.velocity.assign(mesh.nodes.size(), {k == 0 ? kSpeed : 0, 0});
-      spec.smoothNodes.assign(mesh.nodes.size(), 1);
+      smoothAll(spec, mesh);
       world.addBody(mesh, spec);
     }
     const double dt = .2 * world.criticalTimeStep();

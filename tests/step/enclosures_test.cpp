@@ -10,6 +10,7 @@
 
 #include "core/checks.hpp"
 #include "elements/element_state.hpp"
+#include "fracture/overlaps.hpp"
 #include "meshing/polygon.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
@@ -25,8 +26,7 @@ TriangleMesh ring(double inner, double outer, int count, int countInside) {
 /// 20 squares between rigid walls. Coarse meshes lose most of the energy in their blows (the part
 /// of a contact node at touch); it is booked as contact, and the total stays within 0.5 %.
 TEST(Enclosures, TwentySquaresInABox) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   const TriangleMesh frame =
       triangulate(checkPolygon({{{-1, -1}, {6.5, -1}, {6.5, 5.5}, {-1, 5.5}},
                                 {{{-.2, -.2}, {-.2, 4.8}, {5.8, 4.8}, {5.8, -.2}}}}),
@@ -39,8 +39,8 @@ TEST(Enclosures, TwentySquaresInABox) {
   for (int i = 0; i < 20; ++i) {
     const int column = i % 5, row = i / 5;
     const Vec2 low{1.1 * column + .1, 1.1 * row + .1};
-    const TriangleMesh square = structuredRectangle(low, low + Vec2{1, 1}, 4, 4);
-    world.addBody(square, moving(square, rubber(), {speed(random), speed(random)}));
+    addMoving(world, structuredRectangle(low, low + Vec2{1, 1}, 4, 4), rubber(),
+              {speed(random), speed(random)});
   }
   const RunResult result = watch(world, 100000, 200);
   EXPECT_LE(result.deepest, 5e-3) << "of the shortest segment";
@@ -52,8 +52,7 @@ TEST(Enclosures, TwentySquaresInABox) {
 class DiscInARing : public testing::TestWithParam<bool> {};
 
 TEST_P(DiscInARing, Rattles) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   // What sweeps leave is a part of the displacement in a step, some .02 of a segment here.
   world.contactSettings.constants.stop = 1e-4;
   const TriangleMesh outer = ring(1, 1.3, 80, 64);
@@ -79,13 +78,6 @@ TEST_P(DiscInARing, Rattles) {
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, DiscInARing, testing::Bool(),
                          [](const auto& info) { return info.param ? "Smooth" : "Straight"; });
-
-double signedArea(const BodyLoop& loop) {
-  double sum = 0;
-  for (std::size_t i = 0; i < loop.points.size(); ++i)
-    sum += cross(loop.points[i], loop.points[(i + 1) % loop.points.size()]) / 2;
-  return sum;
-}
 
 double distanceToLine(Vec2 point, Vec2 a, Vec2 b) {
   return std::abs(cross(b - a, point - a)) / norm(b - a);
@@ -130,7 +122,7 @@ TEST_P(BucklingRing, TouchesItself) {
     if (i % 20 != 0) continue;
     for (const BodyLoop& loop : loopsOf(world)) {
       crossed = std::max(crossed, selfCrossing(loop) / world.search.shortest);
-      least = std::min(least, std::abs(signedArea(loop)));
+      least = std::min(least, std::abs(signedArea(loop.points)));
     }
     growth = std::max(growth, (world.kineticEnergy() + world.strainEnergy()) / start - 1);
   }

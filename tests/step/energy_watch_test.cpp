@@ -191,8 +191,7 @@ World spreading(double part) {
     spec.velocity[i] = rate * Vec2{x - y, .3 * y + x};
   }
   world.addBody(mesh, spec);
-  const double dt = .99 * world.criticalTimeStep();
-  for (int i = 0; i < 200; ++i) world.step(dt);
+  stepFor(world, .99, 200);
   return world;
 }
 
@@ -252,8 +251,7 @@ TEST(EnergyWatch, BodiesAtRestGiveNoMessage) {
   for (const Vec2 low : {Vec2{.3, .3}, Vec2{-.35, -.35}, Vec2{17.3, 3}, Vec2{1000, 1000}})
     for (const double ofCritical : {.8, .05}) {
       World world = shaking(0, low, .7);
-      const double dt = ofCritical * world.criticalTimeStep();
-      for (int i = 0; i < 10000; ++i) world.step(dt);
+      stepFor(world, ofCritical, 10000);
       EXPECT_TRUE(world.warnings.empty()) << world.warnings.front();
       EXPECT_LT(energyOf(world), .1 * world.roundingEnergy()) << low.x << ' ' << ofCritical;
       if (low.x < 1 && ofCritical > .5) {
@@ -289,8 +287,7 @@ World joined(double least, double most, Vec2 velocity) {
     if (i % 50 != 0) continue;
     const int number = i / 50 + 1;
     const Vec2 low{.02 * number, 0};
-    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{.01, .01}, 2, 2);
-    world.addBody(mesh, moving(mesh, steel(), velocity));
+    addMoving(world, structuredRectangle(low, low + Vec2{.01, .01}, 2, 2), steel(), velocity);
   }
   return world;
 }

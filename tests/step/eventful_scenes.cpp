@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "elements/blocks.hpp"
 #include "solver/column_archive.hpp"
 #include "step/bodies.hpp"
 #include "yade/any_archive.hpp"
@@ -19,8 +20,7 @@ TriangleMesh rectangleAt(Vec2 low, Vec2 size, int nx, int ny) {
 /// A row of blocks; the outer ones fly inwards. `change` is called for each body.
 World row(int count, double gap, double speed,
           const std::function<void(int, BodySpec&, const TriangleMesh&)>& change) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   for (int k = 0; k < count; ++k) {
     const TriangleMesh mesh = rectangleAt({(1 + gap) * k, .07 * k}, {1, 1}, 3 + k % 3, 4);
     const double inwards = k == 0 ? speed : k == count - 1 ? -speed : 0;
@@ -33,6 +33,25 @@ World row(int count, double gap, double speed,
 }
 
 void nothing(int, BodySpec&, const TriangleMesh&) {}
+
+/// A body for each law of flow, the first ones of several chunks of triangles; all bulge and shear.
+World flowing(int parity) {
+  World world = twoPasses();
+  const std::vector<PlasticMaterial> laws = plasticLaws();
+  for (int k = 0; k < static_cast<int>(laws.size()); ++k) {
+    const Vec2 low{1.002 * k, 0};
+    const TriangleMesh mesh = rectangleAt(low, {1, 1}, k < 2 ? 12 : 3, k < 2 ? 12 : 4);
+    BodySpec spec = moving(mesh, steel(), {});
+    spec.plastic = laws[static_cast<std::size_t>(k)];
+    spec.element = k % 2 == parity ? ElementKind::kSmoothed : ElementKind::kLinear;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      const Vec2 x = mesh.nodes[n] - low - Vec2{.5, .5};
+      spec.velocity[n] = 120 * Vec2{x.x + x.y / 2, std::sin(3 * x.x) * x.y};
+    }
+    world.addBody(mesh, spec);
+  }
+  return world;
+}
 
 void shatter(BodySpec& spec, double fractureEnergy) {
   spec.brittle.tensileStrength = 2e5;
@@ -136,10 +155,31 @@ std::map<std::string, Scene> scenes() {
     world.dynamicsSettings.gravity = {0, -9.81};
     world.dynamicsSettings.viscosity = {.06, 1.2};
     world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {10, 20}));
-    const std::vector<NodeId>& rim = world.surfaces.segmentNode;
-    world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {1e3, 2e3}));
-    world.setAbsorbing(std::span(rim).last(3));
+    drive(world, -1, 1e3);
     return world;
+  };
+  // Bodies of several chunks of triangles.
+  all["large"] = [] {
+    World world = twoPasses();
+    world.dynamicsSettings = {.damping = 3, .gravity = {0, -9.81}, .viscosity = {.06, 1.2}};
+    for (const int k : {0, 1}) {
+      const TriangleMesh mesh = rectangleAt({1.001 * k, .1 * k}, {1, 1}, 12 + k, 12);
+      BodySpec spec = moving(mesh, rubber(), {3. - 6 * k, .5 * k});
+      spec.element = k == 0 ? ElementKind::kSmoothed : ElementKind::kLinear;
+      world.addBody(mesh, spec);
+    }
+    return world;
+  };
+  all["flowing"] = [] { return flowing(0); };
+  all["flowingToo"] = [] { return flowing(1); };
+  // Open joints cut the bodies across before the first step.
+  all["jointed"] = [] {
+    return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh& mesh) {
+      shatter(spec, 2000);
+      const double middle = .07 * k + .5;
+      spec.places.joints =
+          jointsWhere(mesh, 0, NAN, [&](Vec2 x) { return std::abs(x.y - middle) < 1e-9; });
+    });
   };
   // Squares and smooth discs of different meshes that close in on one another.
   all["crowd"] = [] {
@@ -201,12 +241,7 @@ std::map<std::string, Scene> scenes() {
   };
   all["rigid"] = [] {
     World world = row(2, .002, 6, nothing);
-    RigidSpec line;
-    line.shape.nodes = {{5, -.1}, {-5, -.3}};
-    line.shape.loops = {{0, 1}};
-    line.friction = .3;
-    line.name = "line";
-    world.addRigid(line);
+    world.addRigid(rigidLine({5, -.1}, {-5, -.3}, .3));
     world.dynamicsSettings.gravity = {0, -300};
     return world;
   };
@@ -222,19 +257,18 @@ World copyOf(World& world) {
   return copy;
 }
 
-void drive(World& world) {
+void drive(World& world, double speed, double pressure) {
   const std::vector<NodeId> driven{NodeId(world.model.nodes.size() - 1)};
   world.prescribeMotion(
       driven, kHeldXY,
-      {.centre = {.02, 0}, .speedX = TimeTable({0, 1e-5}, {0, -30}), .turn = TimeTable(3)});
+      {.centre = {.02, 0}, .speedX = TimeTable({0, 1e-5}, {0, speed}), .turn = TimeTable(3)});
   const std::vector<NodeId>& rim = world.surfaces.segmentNode;
-  world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {10, 20}));
+  world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {pressure, 2 * pressure}));
   world.setAbsorbing(std::span(rim).last(3));
 }
 
 World eventfulWorld(bool isDriven) {
-  World world;
-  world.contactSettings.passes = 2;
+  World world = twoPasses();
   for (int k = 0; k < 3; ++k) {
     const Vec2 low{.01 * k, 0};
     const TriangleMesh mesh =

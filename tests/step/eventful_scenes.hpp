@@ -26,8 +26,8 @@ std::string whatDiffers(const State& a, const State& b);
 /// A world that is saved and loaded, with the settings that belong to no state.
 World copyOf(World& world);
 
-/// A node that moves and turns, a pressure that grows, a side that lets waves out.
-void drive(World& world);
+/// A node that moves (m/s) and turns, a pressure (Pa) that grows, a side that lets waves out.
+void drive(World& world, double speed = -30, double pressure = 10);
 
 /// Cracked, cohesive, smooth and loaded bodies in contact.
 World eventfulWorld(bool isDriven = false);

@@ -77,10 +77,7 @@ Errors collide(const Collision& c) {
   Errors worst;
   while (world.time < until) {
     world.step(dt);
-    Vec2 force;
-    for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
-      if (world.model.nodes.component[i] == ComponentId(0)) force += world.contact.forces()[i];
-    worst.impulse += norm(force) * dt;
+    worst.impulse += norm(contactForce(world, ComponentId(0))) * dt;
     const Moments now = momentsOf(world.model.nodes);
     worst.linear = std::max(worst.linear, norm(now.linear - before.linear));
     worst.angular = std::max(worst.angular, std::abs(now.angular - before.angular));
@@ -198,16 +195,6 @@ TEST(MomentumOfAny, CollisionWithFriction) { anyCollisions(true, 1e-4); }
 
 constexpr ElasticMaterial kSoft{1e7, .3, 1000, false};
 
-/// A line from a to b with both sides.
-RigidSpec line(Vec2 a, Vec2 b, double friction = 0) {
-  RigidSpec spec;
-  spec.shape.nodes = {a, b};
-  spec.shape.loops = {{0, 1}};
-  spec.friction = friction;
-  spec.name = "line";
-  return spec;
-}
-
 BodySpec block(const TriangleMesh& mesh, Vec2 velocity, double friction = 0) {
   BodySpec spec = moving(mesh, kSoft, velocity);
   spec.friction = friction;
@@ -221,17 +208,13 @@ TriangleMesh square(Vec2 at, double angle = 0) {
   return mesh;
 }
 
-Vec2 meanVelocity(const World& world, ComponentId body) {
-  return (1 / mass(world, body)) * test::momentum(world, body);
-}
-
 /// The floor as a line, and as a body of two triangles that are held.
 World drop(bool asBody, double friction, double angle) {
   World world;
   const TriangleMesh mesh = square({.013, .001}, angle);
   world.addBody(mesh, block(mesh, {.5, -1}, friction));
   if (!asBody) {
-    world.addRigid(line({1, 0}, {-1, 0}, friction));
+    world.addRigid(rigidLine({1, 0}, {-1, 0}, friction));
     return world;
   }
   const TriangleMesh floor = structuredRectangle({-1, -1}, {1, 0}, 1, 1);
@@ -267,7 +250,7 @@ TEST(Rigid, HasNoEnergyNoMassAndNoCriticalStep) {
   World world, alone;
   const TriangleMesh mesh = square({0, .001});
   world.addBody(mesh, block(mesh, {0, -1})), alone.addBody(mesh, block(mesh, {0, -1}));
-  world.addRigid(line({.9, 0}, {-.8, 0}));
+  world.addRigid(rigidLine({.9, 0}, {-.8, 0}));
   EXPECT_EQ(world.criticalTimeStep(), alone.criticalTimeStep());
   EXPECT_EQ(world.kineticEnergy(), alone.kineticEnergy());
   // What the leapfrog's energy changes by where a contact opens or closes.
@@ -291,9 +274,9 @@ TEST(Rigid, BothSidesOfALineTouchAndItsEndsToo) {
       const TriangleMesh mesh = square({0, sign * .001}, how == 1 ? half + angle : angle);
       world.addBody(mesh, block(mesh, {0, -sign}));
       if (how == 2)
-        world.addRigid(line({.04, -.5}, {.04, 0}));
+        world.addRigid(rigidLine({.04, -.5}, {.04, 0}));
       else
-        world.addRigid(line({-1, 0}, {1, 0}));
+        world.addRigid(rigidLine({-1, 0}, {1, 0}));
       const double dt = .5 * world.criticalTimeStep();
       double deepest = 0;
       for (int i = 0; i < 600; ++i) {
@@ -311,17 +294,17 @@ TEST(Rigid, OverlapIsRefusedAndNothingChanges) {
   World world;
   const TriangleMesh mesh = square({0, 0});
   world.addBody(mesh, block(mesh, {}));
-  EXPECT_THROW(world.addRigid(line({-1, .05}, {1, .05})), InputError);
+  EXPECT_THROW(world.addRigid(rigidLine({-1, .05}, {1, .05})), InputError);
   EXPECT_FALSE(world.hasRigid());
   EXPECT_EQ(world.model.components.size(), 1);
-  EXPECT_THROW(world.addRigid(line({.02, -1}, {.03, 1})), InputError);
-  world.addRigid(line({-1, 0}, {1, 0}));  // along its lower side
-  world.addRigid(line({.1, -1}, {.1, 1}));
+  EXPECT_THROW(world.addRigid(rigidLine({.02, -1}, {.03, 1})), InputError);
+  world.addRigid(rigidLine({-1, 0}, {1, 0}));  // along its lower side
+  world.addRigid(rigidLine({.1, -1}, {.1, 1}));
   const TriangleMesh below = square({0, -.05});
   EXPECT_THROW(world.addBody(below, block(below, {})), InputError);
   const TriangleMesh beside = square({0, -.1});
   EXPECT_EQ(world.addBody(beside, block(beside, {})).value, 3);
-  world.replaceRigid(std::vector{line({-1, 0}, {1, 0})}, std::vector{0U, 1U});
+  world.replaceRigid(std::vector{rigidLine({-1, 0}, {1, 0})}, std::vector{0U, 1U});
   EXPECT_EQ(world.rigidNodes().size(), 2);
   world.replaceRigid({}, {});
   EXPECT_FALSE(world.hasRigid());
@@ -339,7 +322,8 @@ TEST(Rigid, MadeAnewKeepsWhatTouchesIt) {
       const std::vector<std::uint32_t> former =
           other.rigidNodes().size() == 2 ? std::vector{World::kNoCorner, World::kNoCorner, 0U, 1U}
                                          : std::vector{World::kNoCorner, World::kNoCorner, 2U, 3U};
-      other.replaceRigid(std::vector{line({1, -9}, {-1, -9}), line({1, 0}, {-1, 0}, .4)}, former);
+      other.replaceRigid(std::vector{rigidLine({1, -9}, {-1, -9}), rigidLine({1, 0}, {-1, 0}, .4)},
+                         former);
     }
     touched += other.contact.touches.size();
     world.step(dt), other.step(dt);

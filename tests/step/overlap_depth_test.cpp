@@ -21,9 +21,7 @@ namespace {
 using Corners = std::array<Vec2, 3>;
 
 void addSquare(World& world, Vec2 low, double side) {
-  BodySpec spec;
-  spec.material = {1e9, .3, 1e3, false};
-  world.addBody(structuredRectangle(low, low + Vec2{side, side}, 4, 4), spec);
+  addMoving(world, structuredRectangle(low, low + Vec2{side, side}, 4, 4), rubber(), {});
 }
 
 /// Two squares that overlap by d along one axis, and, in the second scene, a corner in a corner by

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "contact/contact_scenes.hpp"
 #include "core/checks.hpp"
@@ -124,24 +123,12 @@ TEST(BezierArc, DegenerateNodesGiveNumbers) {
 
 EntryId entry(std::size_t e) { return EntryId(e); }
 
-std::vector<Vec2> bumpyLoop(std::mt19937_64& random, std::size_t count) {
-  std::uniform_real_distribution<double> radius(.5, 1.5);
-  std::vector<Vec2> x;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * double(i) / double(count);
-    x.push_back(radius(random) * Vec2{std::cos(angle), std::sin(angle)});
-  }
-  return x;
-}
-
 TEST(PieceGeometry, BoxHoldsThePieceAndEndsAreItsEnds) {
-  std::mt19937_64 random(1);
+  Random random(1);
   for (int k = 0; k < 300; ++k) {
-    const std::size_t n = 3 + random() % 8;
-    std::vector<std::uint8_t> smooth(n);
-    for (auto& flag : smooth) flag = random() % 2;
-    const auto x = bumpyLoop(random, n);
-    const ContactSurfaces s = oneLoop(smooth);
+    const int n = 3 + static_cast<int>(random() % 8);
+    const ContactSurfaces s = oneLoop(smoothFlags(random, static_cast<std::size_t>(n), 2));
+    const auto x = star(random, {}, 1.5, n, 2. / 3);
     const PieceGeometry g(s, x);
     for (std::size_t e = 0; e < s.entries(); ++e) {
       const Box box = g.box(entry(e));

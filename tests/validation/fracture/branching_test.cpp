@@ -32,36 +32,17 @@ struct PulledPlate {
     return plateWithNotch({0, 0}, {kLong, kHigh}, {kTip, kHigh / 2}, size);
   }
 
-  static BodySpec spec() {
-    BodySpec spec;
-    spec.material = kMaterial;
-    spec.brittle.tensileStrength = kStrength;
-    spec.brittle.fractureEnergy = kFractureEnergy;
-    return spec;
-  }
+  static BodySpec spec() { return brittle(kMaterial, kStrength, kFractureEnergy); }
 
   /// Adds the body and pulls it.
   static void add(World& world, const TriangleMesh& mesh, const BodySpec& spec) {
     world.addBody(mesh, spec);
     std::vector<Vec2> loads(mesh.nodes.size());
-    pullSide(mesh, kHigh, kTraction, loads);
-    pullSide(mesh, 0, -kTraction, loads);
+    for (const double y : {0., kHigh})
+      addTraction(
+          mesh, {0, y > 0 ? kTraction : -kTraction},
+          [=](Vec2 x) { return std::abs(x.y - y) < 1e-9; }, loads);
     world.setLoads(loads);
-  }
-
- private:
-  /// (N) Of the nodes of the upper or the lower side.
-  static void pullSide(const TriangleMesh& mesh, double y, double traction,
-                       std::vector<Vec2>& loads) {
-    std::vector<std::size_t> side;
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-      if (std::abs(mesh.nodes[i].y - y) < 1e-9) side.push_back(i);
-    std::ranges::sort(side, {}, [&](std::size_t i) { return mesh.nodes[i].x; });
-    for (std::size_t k = 1; k < side.size(); ++k) {
-      const double length = mesh.nodes[side[k]].x - mesh.nodes[side[k - 1]].x;
-      loads[side[k]].y += traction * length / 2;
-      loads[side[k - 1]].y += traction * length / 2;
-    }
   }
 };
 
@@ -108,8 +89,7 @@ Growth follow(World& world, const std::function<bool(const Moment&)>& enough) {
     if (now.tip > .98 * PulledPlate::kLong || enough(now)) break;
   }
   run.open = cracksOf(world, true);
-  run.lost =
-      world.ledger.total(world.kineticEnergy(), world.strainEnergy()) / world.ledger.external;
+  run.lost = totalEnergy(world) / world.ledger.external;
   return run;
 }
 
@@ -300,8 +280,7 @@ TEST(NotchedPlate, CrackBranchesSymmetrically) {
   EXPECT_GT(upper, .026) << "the upper branch arrives";
   EXPECT_LT(lower, .014) << "the lower branch arrives";
   EXPECT_NEAR(upper + lower, kHigh, 3 * kElement) << "symmetric, but for the mesh";
-  EXPECT_NEAR(world.ledger.total(world.kineticEnergy(), world.strainEnergy()), 0,
-              1e-6 * world.ledger.external);
+  EXPECT_NEAR(totalEnergy(world), 0, 1e-6 * world.ledger.external);
 }
 
 }  // namespace

@@ -39,7 +39,6 @@ class Press {
   RunResult run(double way, double least);
 
  private:
-  void confine(const TriangleMesh& mesh, double pressure);
   [[nodiscard]] double axialWork() const;
 
   World world_;
@@ -51,7 +50,7 @@ class Press {
 
 Press::Press(const Trial& trial, const BodySpec& rock, double confining)
     : failure_(mohrCoulomb(rock, confining)) {
-  const TriangleMesh mesh = trial.mesh({{{0, 0}, {kWide, 0}, {kWide, kHigh}, {0, kHigh}}, {}});
+  const TriangleMesh mesh = trial.mesh(rectangle({0, 0}, {kWide, kHigh}));
   BodySpec spec = rock;
   spec.element = trial.element;
   const ElasticMaterial& m = spec.material;
@@ -68,21 +67,16 @@ Press::Press(const Trial& trial, const BodySpec& rock, double confining)
   world_.addBody(mesh, spec);
   for (const double end : {0., 1.})
     world_.prescribe(nodesAtHeight(world_, end * kHigh), kHeldY, {0, (.5 - end) * rate_ * kHigh});
-  if (confining > 0) confine(mesh, confining);
+  if (confining > 0) {
+    std::vector<Vec2> loads(mesh.nodes.size());
+    for (const double side : {0., kWide})
+      addTraction(
+          mesh, {side > 0 ? -confining : confining, 0},
+          [=](Vec2 x) { return std::abs(x.x - side) < 1e-9; }, loads);
+    world_.setLoads(loads);
+  }
   // Fragments calm down; it takes half a per mille of the load until then.
   world_.dynamicsSettings.damping = .2 / crossing_;
-}
-
-void Press::confine(const TriangleMesh& mesh, double pressure) {
-  std::vector<Vec2> loads(mesh.nodes.size());
-  const auto& loop = mesh.loops[0];
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const std::uint32_t a = loop[k], b = loop[(k + 1) % loop.size()];
-    const Vec2 along = mesh.nodes[b] - mesh.nodes[a];
-    if (std::abs(along.x) > 1e-9) continue;
-    for (const std::uint32_t end : {a, b}) loads[end].x -= pressure / 2 * along.y;
-  }
-  world_.setLoads(loads);
 }
 
 /// (J) What the platens have put in: all outer work but that of the constant lateral forces.
@@ -197,14 +191,6 @@ struct Split {
   double kinetic = 0;  ///< over the strain energy
 };
 
-/// (N) Contact force on a body, downwards.
-double forceDown(const World& world, ComponentId on) {
-  double sum = 0;
-  for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
-    if (world.model.nodes.component[i] == on) sum -= world.contact.forces()[i].y;
-  return sum;
-}
-
 ComponentId addPlate(World& world, const ElasticMaterial& material, double y, double speed) {
   const TriangleMesh mesh =
       structuredRectangle({-kRadius / 2, y}, {kRadius / 2, y + kRadius / 10}, 4, 1);
@@ -226,9 +212,8 @@ Split press(double size, double speed, double shearFactor) {
   // Vibrations decay in 0.1 ms; the pressing takes 1.5 ms.
   world.dynamicsSettings.damping = 2e4;
   const TriangleMesh mesh = triangulate(discOf(kRadius, size), size, {NodeLayout::kScattered, 1});
-  BodySpec spec = moving(mesh, material, {0, 0});
+  BodySpec spec = brittle(material, kStrength);
   smoothAll(spec, mesh);
-  spec.brittle.tensileStrength = kStrength;
   spec.brittle.shearFactor = shearFactor;
   world.addBody(mesh, spec);
   const ComponentId below = addPlate(world, material, -1.1 * kRadius, speed);
@@ -237,7 +222,7 @@ Split press(double size, double speed, double shearFactor) {
   while (world.fracture.numCracks() == 0 && world.time < .05 * kRadius / speed) world.step(dt);
   Split split;
   split.cracked = world.fracture.numCracks() > 0;
-  const double down = forceDown(world, below), up = -forceDown(world, above);
+  const double down = -contactForce(world, below).y, up = contactForce(world, above).y;
   split.load = (down + up) / 2 / (std::numbers::pi * kRadius) / kStrength;
   split.balance = (down - up) / down;
   split.kinetic = world.kineticEnergy() / world.strainEnergy();

@@ -84,20 +84,14 @@ struct FallResult {
 
 /// A brittle block falls on a rigid wall, obliquely.
 FallResult fall(double partOfCritical, double friction, std::uint64_t seed) {
-  const TriangleMesh mesh = triangulate({{{0, .001}, {.1, .001}, {.1, .051}, {0, .051}}, {}}, .008,
-                                        {NodeLayout::kScattered, seed});
-  BodySpec spec = moving(mesh, {30e9, .2, 2500, false}, {1, -15});
+  const TriangleMesh mesh =
+      triangulate(rectangle({0, .001}, {.1, .051}), .008, {NodeLayout::kScattered, seed});
+  BodySpec spec = brittle({30e9, .2, 2500, false}, 5e6, 50);
+  spec.velocity.assign(mesh.nodes.size(), {1, -15});
   spec.friction = friction;
-  spec.brittle.tensileStrength = 5e6;
-  spec.brittle.fractureEnergy = 50;
   World world;
   world.addBody(mesh, spec);
-  RigidSpec wall;
-  wall.shape.nodes = {{1, 0}, {-1, 0}};
-  wall.shape.loops = {{0, 1}};
-  wall.friction = friction;
-  wall.name = "wall";
-  world.addRigid(wall);
+  world.addRigid(rigidLine({1, 0}, {-1, 0}, friction));
   const double dt = partOfCritical * world.criticalTimeStep();
   world.step(dt);
   const double whole = totalEnergy(world);
@@ -135,17 +129,11 @@ TEST(CrackUnderContact, ClosedFacesDoNoWorkAtAnyStep) {
 constexpr double kLong = 2e-3, kHigh = .5e-3, kRate = 1e5;  // m, m, 1/s
 
 void addPlate(World& world, double size, std::uint64_t seed, double fractureEnergy) {
-  const TriangleMesh mesh = triangulate({{{-kLong / 2, -kHigh / 2},
-                                          {kLong / 2, -kHigh / 2},
-                                          {kLong / 2, kHigh / 2},
-                                          {-kLong / 2, kHigh / 2}},
-                                         {}},
-                                        size, {NodeLayout::kScattered, seed});
-  BodySpec spec;
-  spec.material = {275e9, .2, 2750, false};
+  const Vec2 corner{kLong / 2, kHigh / 2};
+  const TriangleMesh mesh =
+      triangulate(rectangle(-1 * corner, corner), size, {NodeLayout::kScattered, seed});
+  BodySpec spec = brittle({275e9, .2, 2750, false}, 300e6, fractureEnergy);
   spec.friction = .3;
-  spec.brittle.tensileStrength = 300e6;
-  spec.brittle.fractureEnergy = fractureEnergy;
   spec.brittle.strengthScatter = .1;
   spec.brittle.seed = seed;
   hold(spec, mesh, kHeldX, [](Vec2 at) { return std::abs(at.x) > kLong / 2 - 1e-9; });
@@ -222,19 +210,9 @@ struct Outcome {
 constexpr ElasticMaterial kConcrete{32e9, .2, 2450, true};
 
 BodySpec concrete() {
-  BodySpec spec;
-  spec.material = kConcrete;
+  BodySpec spec = brittle(kConcrete, 3e6, 3);  // zone 11 mm, five elements
   spec.friction = .3;
-  spec.brittle.tensileStrength = 3e6;
-  spec.brittle.fractureEnergy = 3;  // zone 11 mm, five elements
   return spec;
-}
-
-std::vector<NodeId> nodesWhere(const TriangleMesh& mesh, const std::function<bool(Vec2)>& where) {
-  std::vector<NodeId> nodes;
-  for (std::uint32_t i = 0; i < mesh.nodes.size(); ++i)
-    if (where(mesh.nodes[i])) nodes.emplace_back(i);
-  return nodes;
 }
 
 /// 100 × 100 mm with a notch of 25 mm, pulled up and down.
@@ -244,8 +222,8 @@ void notchedPlate(Scene& scene) {
       triangulate(plateWithNotch({0, 0}, {kSide, kSide}, {kSide / 4, kSide / 2}, kSize), kSize);
   scene.world.addBody(mesh, concrete());
   scene.world.dynamicsSettings.damping = 2e4;
-  scene.pulled = {nodesWhere(mesh, [](Vec2 at) { return at.y > kSide - 1e-9; }),
-                  nodesWhere(mesh, [](Vec2 at) { return at.y < 1e-9; })};
+  scene.pulled = {nodesWhere(scene.world.model.nodes, [](Vec2 at) { return at.y > kSide - 1e-9; }),
+                  nodesWhere(scene.world.model.nodes, [](Vec2 at) { return at.y < 1e-9; })};
   scene.speed = {.05, -.05};
   scene.ramp = 1e-4, scene.duration = 2.5e-4, scene.window = 5e-6;
 }
@@ -267,8 +245,9 @@ void bentBeam(Scene& scene) {
   scene.world.addBody(mesh, concrete());
   scene.world.dynamicsSettings.damping = 5e3;
   scene.pulled = {
-      nodesWhere(mesh, [](Vec2 at) { return at.y < 1e-9 && (at.x < 1e-9 || at.x > kLong - 1e-9); }),
-      nodesWhere(mesh, [](Vec2 at) {
+      nodesWhere(scene.world.model.nodes,
+                 [](Vec2 at) { return at.y < 1e-9 && (at.x < 1e-9 || at.x > kLong - 1e-9); }),
+      nodesWhere(scene.world.model.nodes, [](Vec2 at) {
         return at.y > kHigh - 1e-9 && std::abs(at.x - kLong / 2) < kPad + 1e-9;
       })};
   scene.speed = {0, -.03};
@@ -279,15 +258,11 @@ void bentBeam(Scene& scene) {
 void expandingRing(Scene& scene) {
   constexpr double kRadius = 10e-3, kWidth = 1e-3, kSize = 2.5e-4;
   const int corners = static_cast<int>(2 * std::numbers::pi * kRadius / kSize);
-  Polygon polygon{circle({}, kRadius + kWidth / 2, corners),
-                  {circle({}, kRadius - kWidth / 2, corners)}};
-  for (Vec2& x : polygon.holes[0]) x.y = -x.y;
-  const TriangleMesh mesh = triangulate(polygon, kSize);
-  BodySpec spec;
-  spec.material = {275e9, .2, 2750, true};
+  const TriangleMesh mesh = triangulate(
+      {circle({}, kRadius + kWidth / 2, corners), {circle({}, kRadius - kWidth / 2, corners)}},
+      kSize);
+  BodySpec spec = brittle({275e9, .2, 2750, true}, 300e6, 100);
   spec.friction = .3;
-  spec.brittle.tensileStrength = 300e6;
-  spec.brittle.fractureEnergy = 100;
   spec.brittle.strengthScatter = .1;
   for (const Vec2 x : mesh.nodes) {
     spec.velocity.push_back(1e4 * x);

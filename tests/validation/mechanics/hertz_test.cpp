@@ -111,21 +111,6 @@ void smoothNear(BodySpec& spec, const TriangleMesh& mesh, double reach) {
       spec.smoothNodes[node] = 1;
 }
 
-/// An even load on the flat top.
-void loadTop(World& world, ComponentId cylinder, const Hertz& hertz) {
-  std::vector<std::pair<double, std::size_t>> row;
-  for (std::size_t i = 0; i < world.model.nodes.reference.size(); ++i)
-    if (world.model.nodes.component[i] == cylinder &&
-        world.model.nodes.reference[i].y > hertz.radius * (1 - 1e-9))
-      row.emplace_back(world.model.nodes.reference[i].x, i);
-  std::sort(row.begin(), row.end());
-  world.model.nodes.load.assign(world.model.nodes.size(), {});
-  for (std::size_t k = 0; k + 1 < row.size(); ++k)
-    for (const std::size_t end : {k, k + 1})
-      world.model.nodes.load[row[end].second].y -=
-          hertz.line * (row[k + 1].first - row[k].first) / (4 * hertz.radius);
-}
-
 /// Nodal contact force over tributary length along a body's boundary, where there is any.
 std::vector<PressureAt> pressures(const World& world, ComponentId on) {
   std::vector<PressureAt> profile;
@@ -175,10 +160,7 @@ void roughness(HertzResult& result) {
 HertzResult measure(const World& world, ComponentId coarser, const Hertz& hertz) {
   HertzResult result;
   result.profile = pressures(world, coarser);
-  double force = 0;
-  for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
-    if (world.model.nodes.component[i] == coarser) force += world.contact.forces()[i].y;
-  result.total = std::abs(force) / hertz.line;
+  result.total = std::abs(contactForce(world, coarser).y) / hertz.line;
   result.kinetic = world.kineticEnergy() / world.strainEnergy();
   result.penetration = world.contact.maxPenetration();
   result.touching = (result.profile.back().x - result.profile.front().x) / 2;
@@ -202,7 +184,12 @@ HertzResult press(const Hertz& hertz, const HertzMesh& mesh) {
     smoothNear(b, lower, .6 * hertz.radius);
   }
   const ComponentId cylinder = world.addBody(upper, a), block = world.addBody(lower, b);
-  loadTop(world, cylinder, hertz);
+  // An even load on the flat top.
+  std::vector<Vec2> loads(world.model.nodes.size());
+  addTraction(
+      upper, {0, -hertz.line / (2 * hertz.radius)},
+      [&](Vec2 x) { return x.y > hertz.radius * (1 - 1e-9); }, loads);
+  world.setLoads(loads);
   // The cylinder bouncing on the block: some 5 kHz.
   world.dynamicsSettings.damping = 2 * 2 * std::numbers::pi * 5e3;
   const double dt = .8 * world.criticalTimeStep();

@@ -41,7 +41,7 @@ struct Slope {
     world.dynamicsSettings.viscosity.linear = .06;
     dt = .8 * world.criticalTimeStep();
   }
-  [[nodiscard]] Vec2 velocity() const { return (1 / mass(world, block)) * momentum(world, block); }
+  [[nodiscard]] Vec2 velocity() const { return meanVelocity(world, block); }
   [[nodiscard]] double place() const {
     double sum = 0;
     const Nodes& nodes = world.model.nodes;
@@ -53,18 +53,20 @@ struct Slope {
     const double until = world.time + time;
     while (world.time < until) world.step(dt);
   }
+  void settle() {
+    world.dynamicsSettings.damping = 2000;
+    runFor(.3);
+    world.dynamicsSettings.damping = 0;
+  }
 };
 
-constexpr double kSettle = .3;  // s
 constexpr double kQuiet =
     .05;  // s, before it squeals: in two passes a change of sides begins it with 1e-9
 constexpr double kWatch = .5;  // s
 
 void sticks(double angle, int passes, bool softGround = false) {
   Slope slope(angle, passes, softGround);
-  slope.world.dynamicsSettings.damping = 2000;
-  slope.runFor(kSettle);
-  slope.world.dynamicsSettings.damping = 0;
+  slope.settle();
   const double before = slope.place();
   const std::uint64_t steps = slope.world.steps;
   double farthest = 0;
@@ -80,9 +82,7 @@ void sticks(double angle, int passes, bool softGround = false) {
 
 void slides(double angle, int passes, bool softGround = false) {
   Slope slope(angle, passes, softGround);
-  slope.world.dynamicsSettings.damping = 2000;
-  slope.runFor(kSettle);
-  slope.world.dynamicsSettings.damping = 0;
+  slope.settle();
   const double along = kGravity * std::sin(angle);
   const double wanted = along - std::tan(kFrictionAngle) * kGravity * std::cos(angle);
   const double before = slope.velocity().x, start = slope.world.time;
@@ -178,9 +178,7 @@ Rest rest(int passes, int steps) {
     result.drift = std::max(result.drift, farthest(settled, centres(world)));
   }
   result.lost = std::abs(world.strainEnergy() / energy - 1);
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    if (world.model.nodes.component[n] == ComponentId(1UL))
-      result.weight += world.contact.forces()[n].y;
+  result.weight = contactForce(world, ComponentId(1UL)).y;
   return result;
 }
 

@@ -152,7 +152,7 @@ TEST(PatchTest, Meshes10And13JitteredWithFriction) { patchTest({10, 13, true, .3
 constexpr double kLong = 8, kHigh = 1;  // m
 
 TriangleMesh latticeOf(int layers) {
-  return triangulate({{{0, 0}, {kLong, 0}, {kLong, kHigh}, {0, kHigh}}, {}}, kHigh / layers);
+  return triangulate(rectangle({0, 0}, {kLong, kHigh}), kHigh / layers);
 }
 
 TriangleMesh gridOf(int layers) {
@@ -187,11 +187,7 @@ double deflection(const TriangleMesh& mesh, double poisson, ElementKind element)
       kLong * kLong * kLong / (3 * material.young / (1 - poisson * poisson) * inertia) +
       1.2 * kLong / (material.shearModulus() * area);
   const double load = 1e-5 * kLong / flexibility;
-  Model model;
-  Component component;
-  component.material = material;
-  component.element = element;
-  appendBody(model, mesh, component);
+  Model model = modelOf(mesh, material, element);
   Nodes& nodes = model.nodes;
   nodes.load.resize(nodes.size());
   std::vector<std::size_t> tip;

@@ -47,8 +47,7 @@ double tipAngle(const World& world) {
 /// The mean while the beam vibrates elastically at the end.
 double angleAtRest(double degrees, double size) {
   World world;
-  const Polygon beam{{{0, 0}, {kLength, 0}, {kLength, kHeight}, {0, kHeight}}, {}};
-  const TriangleMesh mesh = turnedMesh(beam, size, degrees);
+  const TriangleMesh mesh = turnedMesh(rectangle({0, 0}, {kLength, kHeight}), size, degrees);
   BodySpec spec = idealSteel(kYield);
   hold(spec, mesh, kHeldXY, [](Vec2 x) { return x.x < 1e-9; });
   world.addBody(mesh, spec);
@@ -92,9 +91,8 @@ struct Strip {
   std::vector<NodeId> left;
 
   Strip(double speed, NodeLayout layout) {
-    const double high = 3 * kSize;
-    const Polygon polygon{{{0, 0}, {kStrip, 0}, {kStrip, high}, {0, high}}, {}};
-    const TriangleMesh mesh = triangulate(polygon, kSize, {layout, 1});
+    const TriangleMesh mesh =
+        triangulate(rectangle({0, 0}, {kStrip, 3 * kSize}), kSize, {layout, 1});
     hold(spec, mesh, kHeldY, [](Vec2) { return true; });
     world.addBody(mesh, spec);
     left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x < 1e-9; });
@@ -111,10 +109,7 @@ struct Strip {
     double sum = 0;
     int count = 0;
     for (std::size_t e = 0; e < all.size(); ++e) {
-      double middle = 0;
-      for (const NodeId n : world.model.triangles.nodes[e])
-        middle += world.model.nodes.reference[n.value].x / 3;
-      if (std::abs(middle - x) < 2 * kSize) sum -= all[e][0], ++count;
+      if (std::abs(middleOf(world, e).x - x) < 2 * kSize) sum -= all[e][0], ++count;
     }
     return sum / count;
   }
@@ -185,9 +180,8 @@ Spall spall(double degrees, double size) {
   BodySpec spec = idealSteel(kSpallYield);
   spec.plastic.failure.spallStress = kSpall;
   spec.plastic.failure.energy = 3.5e3;
-  const double high = 4 * size;
-  const Polygon polygon{{{0, 0}, {kPlate, 0}, {kPlate, high}, {0, high}}, {}};
-  const TriangleMesh mesh = turnedMesh(polygon, size, degrees, {NodeLayout::kScattered, 1});
+  const TriangleMesh mesh =
+      turnedMesh(rectangle({0, 0}, {kPlate, 4 * size}), size, degrees, {NodeLayout::kScattered, 1});
   hold(spec, mesh, kHeldY, [](Vec2) { return true; });
   world.addBody(mesh, spec);
   const auto left = nodesWhere(world.model.nodes, [](Vec2 x) { return x.x < 1e-9; });
@@ -212,9 +206,7 @@ Spall spall(double degrees, double size) {
   double sum = 0;
   int count = 0;
   for (std::size_t e = 0; e < mesh.triangles.size(); ++e)
-    if (world.model.triangles.plastic.damage[e] >= 1)
-      for (const NodeId n : world.model.triangles.nodes[e])
-        sum += kPlate - world.model.nodes.reference[n.value].x, ++count;
+    if (world.model.triangles.plastic.damage[e] >= 1) sum += kPlate - middleOf(world, e).x, ++count;
   result.place = sum / count;
   result.pullBack = density * speed * (most - least) / 2;
   result.energyError =
@@ -244,8 +236,8 @@ TEST(Spall, AnElasticBlockFailsAtTheMeanStress) {
     World world;
     BodySpec spec = idealSteel(1e12, kind);
     spec.plastic.failure.spallStress = kSpall, spec.plastic.failure.energy = 1e3;
-    const TriangleMesh mesh = triangulate({{{0, 0}, {.01, 0}, {.01, .01}, {0, .01}}, {}}, 1e-3,
-                                          {NodeLayout::kScattered, 1});
+    const TriangleMesh mesh =
+        triangulate(rectangle({0, 0}, {.01, .01}), 1e-3, {NodeLayout::kScattered, 1});
     for (const Vec2 x : mesh.nodes) spec.velocity.push_back(1e4 * x);
     hold(spec, mesh, kHeldXY, [](Vec2 x) {
       return std::min({x.x, x.y, .01 - x.x, .01 - x.y}) < 1e-9;

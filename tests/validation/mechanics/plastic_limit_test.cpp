@@ -149,21 +149,15 @@ TEST(StripFooting, BearingCapacity) {
 
 constexpr double kInner = 10e-3, kOuter = 20e-3;
 
-std::vector<Vec2> circleOf(double radius, double size, int sense) {
-  const int count = static_cast<int>(std::lround(2 * std::numbers::pi * radius / size));
-  std::vector<Vec2> points;
-  for (int i = 0; i < count; ++i) {
-    const double a = sense * 2 * std::numbers::pi * i / count;
-    points.push_back(radius * Vec2{std::cos(a), std::sin(a)});
-  }
-  return points;
-}
-
 /// The inner side moves outwards at a constant speed.
 class Tube {
  public:
   Tube(double size, double degrees, ElementKind kind = ElementKind::kSmoothed) {
-    mesh_ = turnedMesh({circleOf(kOuter, size, 1), {circleOf(kInner, size, -1)}}, size, degrees);
+    const auto circleOf = [=](double radius) {
+      return circle({}, radius,
+                    static_cast<int>(std::lround(2 * std::numbers::pi * radius / size)));
+    };
+    mesh_ = turnedMesh({circleOf(kOuter), {circleOf(kInner)}}, size, degrees);
     spec = idealSteel(300e6, kind);
     world.addBody(mesh_, spec);
     inner_ = nodesWhere(world.model.nodes, [&](Vec2 x) { return norm(x) < kInner * 1.0001; });
@@ -278,14 +272,11 @@ std::vector<double> scattered(const TriangleMesh& mesh, std::uint64_t seed) {
   const auto sections = static_cast<std::size_t>(std::lround(kAround / kSection));
   BrittleMaterial weibull;
   weibull.weibullModulus = kModulus, weibull.seed = seed;
-  std::vector<double> factors;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec2 x = mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c];
+  return byTriangle<double>(mesh, [&](Vec2 x) {
     const double turns = std::atan2(x.y, x.x) / (2 * std::numbers::pi) + .5;
     const auto section = static_cast<std::uint64_t>(turns * static_cast<double>(sections));
-    factors.push_back(scatterFactor(weibull, std::min<std::uint64_t>(section, sections - 1), 1));
-  }
-  return factors;
+    return scatterFactor(weibull, std::min<std::uint64_t>(section, sections - 1), 1);
+  });
 }
 
 /// With `rows` triangles across, its points turned by `turn` (rad).
