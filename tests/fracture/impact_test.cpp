@@ -68,7 +68,7 @@ TEST(Impact, AFreeBlockKeepsTheMomentum) {
 }
 
 /// (N) Sum of the contact forces' sizes.
-double contactForce(const World& world) {
+double totalContactForce(const World& world) {
   double sum = 0;
   for (const Vec2 force : world.contact.forces()) sum += norm(force);
   return sum;
@@ -92,7 +92,7 @@ TEST(Impact, NewFacesTouchInTheNextStep) {
   for (int i = 0; i < 1000; ++i) {
     world.step(dt);
     if (faces >= 0 && i == faces + 1) {
-      EXPECT_GT(contactForce(world), 0);
+      EXPECT_GT(totalContactForce(world), 0);
     }
     // First the held corners part, which do not move.
     if (faces < 0 && world.surfaces.segments() > segments + 10) faces = i;
