@@ -243,7 +243,7 @@ def test_interruptedRunStillReports(folder):
     assert os.listdir(folder) == ['squares.png']
 
 
-kScenes = ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo')
+kScenes = ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo', 'taylor')
 
 
 def test_columnCarriesItsWeight(folder):
@@ -291,6 +291,15 @@ def test_crusherKeepsMomentum(folder):
     pieces, cracks, change = found['pieces']
     # 18 pieces: shear counts at the tips of cracks; with opening alone there are some 30.
     assert pieces > 10 and cracks > 100 and change < 1e-3
+
+
+@pytest.mark.long
+def test_copperCylinderHasTheRadiusOfOtherCodes(folder):
+    """Eight triangles in the radius: within 2 % of the larger of the two."""
+    found = figures('taylor', folder)
+    radius, _, _, _, other = found['largest radius']
+    assert radius == pytest.approx(other, rel=.02)
+    assert abs(found['energy'][0]) < 1e-4
 
 
 @pytest.mark.parametrize('name', kScenes)

@@ -6,7 +6,7 @@ import pytest
 import yadefrag
 from yade import utils
 from yadefrag import BrittleFEMat, FEMat, FESolver, PlasticFEMat, rectangle
-from fe_scene import O, areSame, ready, reloaded, state
+from fe_scene import O, ready
 
 STEEL = dict(young=200e9, poisson=.3, density=7800, frictionAngle=0)
 COPPER = dict(young=117e9, poisson=.35, density=8930, yieldStress=400e6, hardening=100e6, frictionAngle=0)
@@ -22,6 +22,19 @@ def tube(material, height=.03, size=.005, **body):
     ready(fe, .8)
     fe.damping = 20e3
     return fe, numpy.flatnonzero(abs(fe.nodes[:, 0] - INNER) < 1e-9)
+
+
+def shell(material, size=.012, **body):
+    """The upper half of a hollow sphere, on its plane of symmetry; the nodes of the bore."""
+    O.materials.append(material)
+    fe = FESolver(axisymmetric=True)
+    circle = numpy.stack([numpy.sin(angles := numpy.linspace(0, math.pi / 2, 61)), numpy.cos(angles)], axis=1)
+    circle[-1, 1] = 0
+    fe.addPolygon([*(INNER * circle), *(OUTER * circle[::-1])], size=size, material=0, **body,
+                  fixed=lambda x, y: 'y' if y < 1e-9 else False)
+    ready(fe, .8)
+    fe.damping = 20e3
+    return fe, numpy.flatnonzero(numpy.hypot(*fe.nodes.T) < 1.0005 * INNER)
 
 
 def volumes(fe):
@@ -54,23 +67,46 @@ def test_tubeUnderPressureIsThatOfLame(element, poisson):
     assert fe.displacements[bore, 0].mean() == pytest.approx(wanted, rel=5e-3)
 
 
+def pressureOfFront(yieldStress, order):
+    """Pressure at which the plastic front in an ideally plastic tube in plane strain (order 2) or in a hollow sphere (3)
+    is at the radius c (Hill 1950): 2Y' (ln c/a + (1 − cⁿ/bⁿ)/n), with Y' = Y/√3 for the tube."""
+    shear = yieldStress if order == 3 else yieldStress / math.sqrt(3)
+    return lambda c: 2 * shear * (math.log(c / INNER) + (1 - (c / OUTER)**order) / order)
+
+
+def flowed(fe):
+    return volumes(fe)[fe.plasticStrain > 1e-6].sum()
+
+
 @pytest.mark.parametrize('front', [1.3, 1.6])
-def test_plasticFrontInATubeIsThatOfHill(front):
-    """p = 2k (ln c/a + (1 − c²/b²)/2), ideally plastic, in plane strain: the pressure of the front that is found is
-    within 2 % of the one applied."""
-    shear = 300e6 / math.sqrt(3)
-
-    def pressureAt(c):
-        return 2 * shear * (math.log(c / INNER) + (1 - c**2 / OUTER**2) / 2)
-
-    fe, bore = tube(PlasticFEMat(**STEEL, yieldStress=300e6))
+@pytest.mark.parametrize('order', [2, 3])
+def test_plasticFrontIsThatOfHill(front, order):
+    """The pressure of the front that is found is within 2 % of the one applied."""
+    pressureAt = pressureOfFront(300e6, order)
+    fe, bore = (tube, shell)[order - 2](PlasticFEMat(**STEEL, yieldStress=300e6))
     duration = 8e-4
     fe.pressure(bore, [(0, 0), (duration, pressureAt(front * INNER))])
     while fe.time < 2 * duration:
         O.run(500, True)
-    flowed = volumes(fe)[fe.plasticStrain > 1e-6].sum()
-    found = math.sqrt(INNER**2 + flowed / (math.pi * .03))
+    found = math.sqrt(INNER**2 + flowed(fe) / (math.pi * .03)) if order == 2 else \
+        (INNER**3 + flowed(fe) * 1.5 / math.pi)**(1 / 3)
     assert pressureAt(found) == pytest.approx(pressureAt(front * INNER), rel=.02)
+
+
+@pytest.mark.parametrize('element, poisson', [('linear', .3), ('smoothed', .3), ('smoothed', .49)])
+def test_hollowSphereUnderPressureIsThatOfLame(element, poisson):
+    pressure = 100e6
+    fe, bore = shell(FEMat(**{**STEEL, 'poisson': poisson}), element=element)
+    fe.pressure(bore, pressure)
+    while fe.time < 1e-3:
+        O.run(500, True)
+    radii = numpy.hypot(*fe._reference.T)
+    moved = numpy.hypot(*fe.nodes.T) - radii
+    wanted = pressure * INNER**3 / (OUTER**3 - INNER**3) / STEEL['young'] * (
+        (1 - 2 * poisson) * radii + (1 + poisson) * OUTER**3 / (2 * radii**2))
+    # Single nodes of the outer sphere are off by up to .011.
+    assert numpy.allclose((moved / wanted)[bore], 1, atol=.01)
+    assert (moved / wanted).mean() == pytest.approx(1, abs=5e-3)
 
 
 def test_waveAlongABarHasTheSpeedOfBars():
@@ -94,8 +130,8 @@ def test_waveAlongABarHasTheSpeedOfBars():
 
 
 def test_copperCylinderOnAWall():
-    """A code benchmark, 227 m/s, 80 µs: final lengths of 21.3 to 21.5 mm are published for it (Zhu and Cescotto 1995,
-    Int. J. Numer. Meth. Eng. 38, 4217); energy is kept to 1e-4."""
+    """The benchmark of Wilkins and Guinan 1973: the final radius is 7.12 mm by Simo (1992, Comput. Methods Appl. Mech.
+    Eng. 99, 61) and 7.22 mm by Foulk et al. (2021, Sec. 4.4). Here four triangles fill the radius."""
     O.materials.append(PlasticFEMat(**COPPER))
     fe = FESolver(axisymmetric=True)
     fe.addPolygon(rectangle((0, 0), (3.2e-3, 32.4e-3)), size=.8e-3, material=0, velocity=(0, -227))
@@ -104,7 +140,7 @@ def test_copperCylinderOnAWall():
     before = fe.energy['total']
     while fe.time < 80e-6:
         O.run(200, True)
-    assert numpy.ptp(fe.nodes[:, 1]) == pytest.approx(21.4e-3, rel=.02)
+    assert fe.nodes[:, 0].max() == pytest.approx(7.17e-3, rel=.03)
     assert fe.energy['total'] == pytest.approx(before, rel=1e-4)
     assert fe.energy['plastic'] > .95 * before
     assert fe.nodes[:, 0].min() >= 0 and fe.nodes[:, 1].min() > -1e-6
@@ -183,20 +219,6 @@ def test_initialStressAroundTheAxisIsInEquilibrium():
         assert fe.stressZ == pytest.approx(numpy.full(len(fe.triangles), -1e8), rel=1e-8)
         O.run(200, True)
         assert abs(fe.velocities).max() < 1e-9
-
-
-@pytest.mark.parametrize('threads', [1, 2])
-def test_sameBitsAfterLoadingAndForAnyThreads(threads, tmp_path):
-    fe = discs(ompThreads=threads)
-    O.run(150, True)
-    wanted = state(fe)
-    O.reset()
-    fe = discs()
-    O.run(100, True)
-    fe = reloaded(str(tmp_path / 'scene.yade'))
-    assert fe.axisymmetric
-    O.run(50, True)
-    assert areSame(state(fe), wanted)
 
 
 def test_whatHasNoMeaningIsRefusedInASentence():

@@ -94,6 +94,17 @@ def byPlace():
     engines(solver, factor=.4)
 
 
+def rings():
+    """Around an axis: a disc that yields hits one of smoothed strains, a ring that cracks shrinks onto both."""
+    solver = fe(axisymmetric=True)
+    O.materials.append(w.PlasticFEMat(young=1e7, poisson=.3, density=1000, yieldStress=3e4, label='yields'))
+    O.materials.append(brittle_(label='b', young=1e8, density=1000, tensileStrength=1e5, fractureEnergy=.1))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .04)), size=.01, material='m', element='smoothed')
+    solver.addPolygon(yadefrag.rectangle((0, .0401), (.06, .08)), size=.012, material='yields', velocity=(0, -2))
+    solver.addPolygon(yadefrag.rectangle((.101, -.01), (.12, .06)), size=.006, material='b', velocity=(-3, 0))
+    engines(solver, factor=.4)
+
+
 def driven():
     """A drum that turns, an anvil that moves, a block with pressure and loads, after a body has been removed."""
     solver = fe()
@@ -145,6 +156,7 @@ kScenes = {
     'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
     'by place': (byPlace, 150, lambda fe: fe.numCracks > 0 and fe.energy['fracture'] > 0),
     'gas in cracks': (splitting, 60, lambda fe: fe.numCracks > 0 and fe.energy['external'] > 0),
+    'around an axis': (rings, 150, lambda fe: fe.numCracks > 0 and fe.plasticStrain.max() > 0),
     'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
     'plastic': (plate, 100, lambda fe: fe.plasticStrain.max() > .01),
     'failure': (lambda: plate(weibullModulus=8, **FAILS), 100, lambda fe: fe.numCracks > 0),
