@@ -50,8 +50,7 @@ struct PolarRotation {
     sine = b * inverse;
   }
   /// 2μ(F − R) + sR
-  [[nodiscard, gnu::always_inline]] Matrix2 stress(const Matrix2& f, double s,
-                                                   double shear) const {
+  [[nodiscard, gnu::always_inline]] Matrix2 stress(const Matrix2& f, double s, double shear) const {
     const double m = 2 * shear;
     return {m * (f.xx - cosine) + s * cosine, m * (f.xy + sine) - s * sine,
             m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};

@@ -38,8 +38,8 @@ struct CutLines {
 /// Parts of a joint outside the polygon, on an edge, or on an earlier joint are removed. Ends and
 /// intersections, and lines, that are nearer to each other than `tolerance` (m; at least
 /// tolerance::kJointMeets of the local size) are joined: joints end at, and bend to, common points.
-/// Edges of the polygon keep their places. Throws InputError for a joint without a remaining part, and for
-/// ends that are not finite.
+/// Edges of the polygon keep their places. Throws InputError for a joint without a remaining part,
+/// and for ends that are not finite.
 [[nodiscard]] CutLines cutAtJoints(const Polygon& polygon, const JointLines& joints,
                                    const SizeField& size, double tolerance = 0);
 

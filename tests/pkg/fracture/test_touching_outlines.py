@@ -224,12 +224,6 @@ def test_jointsWithoutToleranceAreAsGiven():
     assert joined.criticalTimeStep() > 100 * exact.criticalTimeStep()
 
 
-def test_linesAtASmallAngleRunTogether():
-    solver, told = plateOf([((.1, .5), (.9, .5)), ((.1, .5), (.9, .53))])
-    assert any('were joined' in one for one in told)
-    assert solver.criticalTimeStep() > plateOf(())[0].criticalTimeStep() / 15
-
-
 def test_theAdviceForAnOutlineIsMeasured():
     """simplify= helps against a vertex too many, nothing helps against a thin web."""
     solver = solverOf()

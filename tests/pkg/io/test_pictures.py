@@ -28,7 +28,8 @@ def noCracks():
 
 
 def standIn(**values):
-    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, _cracks=noCracks, **values)
+    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, _cracks=noCracks, axisymmetric=False,
+                                 **values)
 
 
 def makeSolver():

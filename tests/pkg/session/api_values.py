@@ -188,7 +188,7 @@ def forms(fe, folder, trial):
         rectangleMesh=dict(low=[P(0, 0)], high=[P(1, 2)], nx=[W(2)], ny=[W(3)], crossed=[F(True), F(False)]),
         plotMesh=dict(pictures, fe=[[fe]], field=[NONE] + [TEXT(one) for one in (
             'xx', 'zz', 'mises', 'sigma1', 'strain', 'fragment', 'plastic strain')] + [EACH([.5] * count), EACH([.5] * len(fe.nodes))],
-            xlim=[NONE, P(0, 3)], ylim=[NONE, P(0, 2)], ax=[NONE]),
+            xlim=[NONE, P(0, 3)], ylim=[NONE, P(0, 2)], ax=[NONE], mirror=[F(False)]),
         severalFields=dict(fields=[NONE, LIST(['xx', None]), LIST([[.5] * count, 'speed'])],
                            limits=[NONE + LIST([None, None]), P(0, 1) + LIST([(0, 1), [0., 1]]), LIST([None, (0, 1)])]),
         animate=dict({**pictures, 'file': [PATH(folder + '/a.gif')]}, fe=[[fe]], steps=[W(2)], every=[W(1)], rate=[R(20)],

@@ -210,6 +210,8 @@ def _drawTriangles(ax, picture, limits, sides):
     ax.set_aspect('equal')
     ax.set_xlabel('x (m)')
     ax.set_ylabel('y (m)')
+    if sides[1] > sides[0]:
+        ax.locator_params(axis='x', nbins=5)  # more labels would cover each other
     if sides[1] > 4 * sides[0]:
         ax.tick_params('x', rotation=90)
     if values is None or not numpy.isfinite(values).any():
