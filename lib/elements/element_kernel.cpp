@@ -35,7 +35,7 @@ template <bool kWatched, bool kMixed, bool kHoop>
     const double v = e.volume[k];
     double size = determinant(f), h = 0;
     if constexpr (kHoop) {
-      h = (c.x[0][k] + c.x[1][k] + c.x[2][k]) * hoops->inverse[k] - 1;
+      h = c.sumOfX(k) * hoops->inverse[k] - 1;
       size *= 1 + h;
     }
     flat += size > tolerance::kFlat ? 0 : 1;  // also for NaN

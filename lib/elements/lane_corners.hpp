@@ -42,6 +42,10 @@ struct alignas(64) Corners {
     x[2][k] = f2x;
     y[2][k] = f2y;
   }
+  /// Three times the distance of the centroid from the axis.
+  [[nodiscard, gnu::always_inline]] double sumOfX(std::size_t k) const {
+    return x[0][k] + x[1][k] + x[2][k];
+  }
   /// A further force towards the axis on each corner, of the stress along the circle.
   [[gnu::always_inline]] void pullInwards(std::size_t k, double pull) {
     x[0][k] -= pull;

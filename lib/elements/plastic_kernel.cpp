@@ -51,7 +51,7 @@ struct Hoops {
                                const Corners<W>& corners, std::size_t first)
       : hoops(in.hoops[group.lane]), c(corners), at(first) {}
   [[gnu::always_inline]] double operator[](std::size_t k) const {
-    return (c.x[0][at + k] + c.x[1][at + k] + c.x[2][at + k]) * hoops.inverse[k];
+    return c.sumOfX(at + k) * hoops.inverse[k];
   }
 };
 
@@ -112,8 +112,8 @@ template <std::size_t W>
   alignas(64) double pull[kLanes];
   if (hasAxis)
     for (std::size_t k = at; k < at + kLanes; ++k)
-      pull[k - at] = e.volume[k - at] * stressAcross(w.trial[k], w.mean[k], w.kept[k], shear) /
-                     (c.x[0][k] + c.x[1][k] + c.x[2][k]);
+      pull[k - at] =
+          e.volume[k - at] * stressAcross(w.trial[k], w.mean[k], w.kept[k], shear) / c.sumOfX(k);
 #pragma omp simd
   for (std::size_t i = 0; i < kLanes; ++i) {
     const std::size_t k = at + i;

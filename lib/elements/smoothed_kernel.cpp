@@ -24,7 +24,7 @@ template <bool kWatched, bool kHoop>
     const Matrix2 f = c.gradient(e.inverseEdges, k);
     double size = determinant(f), further = -0.;
     if constexpr (kHoop) {
-      around[k] = (c.x[0][k] + c.x[1][k] + c.x[2][k]) * hoops->inverse[k] - 1;
+      around[k] = c.sumOfX(k) * hoops->inverse[k] - 1;
       further = chunk.lame * around[k], size *= 1 + around[k];
     }
     flat += size > tolerance::kFlat ? 0 : 1;  // also for NaN
