@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/tolerances/dynamics.hpp"
+#include "elements/element_state.hpp"
 #include "elements/plastic_return.hpp"
 
 namespace yadefrag {
@@ -200,9 +201,7 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
       if (isSmoothed(chunk)) sum += now_.of(chunk)[corner] * model.massShare(ElementId(element), i);
     }
     double thickness = 1;
-    TriangleEdges edges{x[1] - x[0], x[2] - x[0]};
-    if (model.axisymmetric)
-      edges.hoop = (x[0].x + x[1].x + x[2].x) / (3 * model.triangles.radius[element]);
+    const TriangleEdges edges{x[1] - x[0], x[2] - x[0], hoopStretch(model, ElementId(element))};
     const ElasticTrial now = trialOf(c, point, edges, thickness);
     const double mean =
         isSmoothed(chunk) ? sum / 3 * now.volume : meanStress(now.volume, c.moduli.bulk);
