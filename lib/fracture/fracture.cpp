@@ -108,8 +108,9 @@ YieldingSplit::YieldingSplit(const Model& model, const CrackEdges& edges,
       const auto at = std::ranges::lower_bound(nodes_, node);
       if (at == nodes_.end() || *at != node) continue;
       const auto i = static_cast<std::size_t>(at - nodes_.begin());
-      area[i] += weightOf(model, e, node);
-      sum[i] += weightOf(model, e, node) * ratioOf(model, e);
+      const double weight = weightOf(model, e, node);
+      area[i] += weight;
+      sum[i] += weight * ratioOf(model, e);
     }
   for (std::size_t i = 0; i < nodes_.size(); ++i) mean_.push_back(sum[i] / area[i]);
 }
