@@ -60,8 +60,8 @@ Deformation deformation(const Model& model, ElementId element) {
   return {deformationGradient(model, element), hoopStretch(model, element)};
 }
 
-Deformation deformationBefore(const Model& model, ElementId element, double dt) {
-  const Deformation now = deformation(model, element);
+Deformation deformationBefore(const Model& model, ElementId element, const Deformation& now,
+                              double dt) {
   return {now.plane - deformationStep(model, element, dt),
           now.hoop - dt * overRadius(model, element, model.nodes.velocity, 0)};
 }
@@ -111,14 +111,14 @@ std::vector<double> stressesAcross(const Model& model, double dt) {
   const std::vector<double>& initial = model.triangles.stressAcross;
   for (const Component& c : model.components) {
     if (c.yields() || c.material.planeStress) continue;
-    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
-      if (model.triangles.isDropped(e))
-        continue;
-      else if (model.axisymmetric)
+    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
+      if (model.triangles.isDropped(e)) continue;
+      if (model.axisymmetric)
         result[e] = cauchyAround(model, ElementId(e));
       else
         result[e] = model.materialOf(ElementId(e)).material.poisson * (plane[e][0] + plane[e][1]) +
                     (initial.empty() ? 0 : initial[e]);
+    }
   }
   if (model.axisymmetric) setSmoothedAround(model, result);
   setYieldingAcross(model, dt, result);

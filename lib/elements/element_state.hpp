@@ -112,9 +112,10 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 inline double hoopStretch(const Model& model, ElementId element) {
   return overRadius(model, element, model.nodes.position, 1);
 }
-/// Now, and one step of Δt (s) before.
 Deformation deformation(const Model& model, ElementId element);
-Deformation deformationBefore(const Model& model, ElementId element, double dt);
+/// One step of Δt (s) before that of now.
+Deformation deformationBefore(const Model& model, ElementId element, const Deformation& now,
+                              double dt);
 
 /// (Pa) Cauchy stress xx, yy, xy of the F of one element, without strain smoothing. Cracks average
 /// it over the elements at a node, which is a smoothing of its own. `dt`: as below.

@@ -9,7 +9,8 @@ namespace {
 
 /// (J) Twice the triangle's own energy at the half step.
 double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
-  const Deformation f = deformation(model, element), last = deformationBefore(model, element, dt);
+  const Deformation f = deformation(model, element);
+  const Deformation last = deformationBefore(model, element, f, dt);
   const SplitGradient now = splitGradient(f.plane), before = splitGradient(last.plane);
   const ElasticMaterial& material = model.bodyOf(element).material;
   return (1 - kSmoothedShare) * material.shearModulus() * volumeOf(model, element) *

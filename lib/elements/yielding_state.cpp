@@ -192,7 +192,7 @@ YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> ele
     for (std::size_t i = 0; i < 3; ++i) work += dot(now[i] - before[i], p.step[i]);
     const double modulus = model.bodyOf(p.element).material.waveModulus();
     const Deformation f = deformation(model, p.element);
-    const Deformation last = deformationBefore(model, p.element, dt);
+    const Deformation last = deformationBefore(model, p.element, f, dt);
     sum.strain += p.volume * (twice + twiceBarrierEnergy(f, last, modulus)) / 2 + work / 4;
     sum.dissipated += p.volume * p.present.dissipation / 2;
   }

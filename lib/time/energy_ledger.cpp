@@ -9,7 +9,7 @@ namespace {
 double twiceEnergy(const Model& model, ElementId element, const Moduli& moduli, double dt) {
   const auto [lame, shear] = moduli;
   const Deformation now = deformation(model, element);
-  const Deformation before = deformationBefore(model, element, dt);
+  const Deformation before = deformationBefore(model, element, now, dt);
   const HoopStress after = hoopStress(now.plane, now.hoop - 1, lame, shear),
                    former = hoopStress(before.plane, before.hoop - 1, lame, shear);
   return model.triangles.area[element.value] *
