@@ -227,7 +227,16 @@ void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
       fastest, extent.farthest, step, seen / step));
 }
 
-void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
+/// `across`: NaN if it is not given.
+bool hasStretch(const ElasticMaterial& material, const std::array<double, 3>& stress, double across,
+                bool yields, bool axisymmetric) {
+  const bool isSpatial = !material.planeStress && !std::isnan(across);
+  if (isSpatial && yields) return stretchOf(material, stress, across).has_value();
+  if (isSpatial && axisymmetric) return stretchAround(material, stress, across).has_value();
+  return stretchOf(material, stress) && !std::isinf(across);
+}
+
+void checkStress(const TriangleMesh& mesh, const BodySpec& spec, bool axisymmetric) {
   if (spec.stress.empty()) return;
   requireCount("stress", spec.stress, mesh.triangles.size(), "triangles");
   if (!spec.displacement.empty())
@@ -239,10 +248,7 @@ void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
     const double across = spec.stressAcross.empty() ? NAN : spec.stressAcross[t];
     require(!material.planeStress || std::isnan(across) || across == 0, "stress zz", across, " Pa",
             "0 in plane stress");
-    const bool isSpatial = !material.planeStress && !std::isnan(across);
-    if (spec.plastic.yields() && isSpatial ? stretchOf(material, stress, across).has_value()
-                                           : stretchOf(material, stress) && !std::isinf(across))
-      continue;
+    if (hasStretch(material, stress, across, spec.plastic.yields(), axisymmetric)) continue;
     const Vec2 at = mesh.nodes[mesh.triangles[t][0]];
     throw InputError(
         fmt::format("stress at ({:g}, {:g}) m is ({:g}, {:g}, {:g}{}) Pa, by which the material "
@@ -255,7 +261,7 @@ void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
 
 }  // namespace
 
-void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
+void checkBody(const TriangleMesh& mesh, const BodySpec& spec, bool axisymmetric) {
   const std::size_t nodes = mesh.nodes.size();
   requireCount("velocity", spec.velocity, nodes, "nodes");
   requireCount("displacement", spec.displacement, nodes, "nodes");
@@ -270,7 +276,7 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   checkPlaces(mesh, spec);
   checkTriangles(mesh);
   checkDisplacement(mesh, spec.displacement);
-  checkStress(mesh, spec);
+  checkStress(mesh, spec, axisymmetric);
   checkMasses(mesh, spec);
   checkRounding(mesh, spec);
 }

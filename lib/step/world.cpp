@@ -50,7 +50,7 @@ BrittlePlaces edgePlaces(const BodySpec& spec) {
 }  // namespace
 
 ComponentId World::addBody(const TriangleMesh& given, const BodySpec& spec) {
-  checkBody(given, spec);
+  checkBody(given, spec, model.axisymmetric);
   const TriangleMesh moved = model.axisymmetric ? besideAxis(given, spec) : TriangleMesh{};
   const TriangleMesh& mesh = model.axisymmetric ? moved : given;
   requireApart(mesh, spec, "The new body");

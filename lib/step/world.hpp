@@ -304,7 +304,7 @@ class World {
 /// Throws InputError, which states the invalid value and the valid range, unless every value is
 /// valid: finite, with the correct sign, one for each node of the mesh, and no triangle with a mass
 /// or stiffness out of range (body_check.cpp).
-void checkBody(const TriangleMesh& mesh, const BodySpec& spec);
+void checkBody(const TriangleMesh& mesh, const BodySpec& spec, bool axisymmetric);
 
 /// Returns an empty string if every array has its length, every index is in range, every list is
 /// consistently linked, and every divisor is positive and finite; otherwise the invalid part. For

@@ -7,7 +7,6 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "mesh/assembly.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -42,18 +41,6 @@ TriangleMesh World::besideAxis(TriangleMesh mesh, const BodySpec& spec) const {
   const auto isPlane = [](const BodyMaterial& one) { return one.material.planeStress; };
   if (isPlane(spec) || std::ranges::any_of(spec.materials.materials, isPlane))
     throw InputError("planeStress is set, but an axisymmetric body has stresses around its axis.");
-  for (std::size_t t = 0; t < spec.stressAcross.size(); ++t) {
-    const double around = spec.stressAcross[t];
-    const ElasticMaterial& material =
-        spec.materials.empty() ? spec.material
-                               : spec.materials.materials[spec.materials.ofTriangle[t]].material;
-    if (spec.plastic.yields() || std::isnan(around)) continue;
-    if (!stretchAround(material, spec.stress[t], around))
-      throw InputError(fmt::format(
-          "stress zz of triangle {} is {:g} Pa, by which the material with young {:g} Pa would be "
-          "strained by more than half; it must be less, and finite.",
-          t, around, material.young));
-  }
   return mesh;
 }
 
