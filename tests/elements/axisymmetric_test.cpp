@@ -18,24 +18,15 @@ constexpr Law kLaws[] = {Law::kElastic, Law::kSmoothed, Law::kYielding, Law::kAv
 
 /// From the axis, or from `inner`, to .02 m, and .02 m high. No stress here reaches the strength.
 Model cylinder(Law law, int side = 6, double inner = 0) {
-  Model model;
-  model.axisymmetric = true;
-  appendBlock(model, {inner, -.01}, {inner + .02, .01}, side, side);
-  Component& body = model.components[0];
+  Component body;
+  body.material = kSteel;
   if (law == Law::kYielding || law == Law::kAveraged) body.plastic.yieldStress = 1e12;
   if (law == Law::kCone) body.plastic.cohesion = 1e12, body.plastic.internalFriction = .5;
   if (law == Law::kAveraged || law == Law::kSmoothed) body.element = ElementKind::kSmoothed;
-  if (law == Law::kElastic || law == Law::kSmoothed) return model;
-  Model again;
-  again.axisymmetric = true;
-  TriangleMesh mesh;
-  mesh.nodes = model.nodes.position;
-  for (const auto& [a, b, c] : model.triangles.nodes)
-    mesh.triangles.push_back({a.value, b.value, c.value});
-  Component same = body;
-  same.firstTriangle = same.lastTriangle = 0;
-  appendBody(again, mesh, same);
-  return again;
+  Model model;
+  model.axisymmetric = true;
+  appendBlock(model, {inner, -.01}, {inner + .02, .01}, side, side, body);
+  return model;
 }
 
 void stretchBy(Model& model, double radial, double axial) {

@@ -24,17 +24,21 @@ inline constexpr ElasticMaterial kSteel{
 
 /// Appends nx × ny quads, whose inner nodes are moved about by up to a fifth of a quad.
 inline ComponentId appendBlock(Model& model, Vec2 low, Vec2 high, int nx, int ny,
-                               const ElasticMaterial& material = kSteel, double thickness = 1) {
+                               const Component& component) {
   TriangleMesh mesh = structuredRectangle(low, high, nx, ny);
   test::jitter(
       mesh, {.2 * (high.x - low.x) / nx, .2 * (high.y - low.y) / ny}, std::mt19937_64(5),
       [&](Vec2 x) {
         return x.x > low.x && x.x < high.x && x.y > low.y && x.y < high.y ? Vec2{1, 1} : Vec2{};
       });
+  return appendBody(model, mesh, component);
+}
+inline ComponentId appendBlock(Model& model, Vec2 low, Vec2 high, int nx, int ny,
+                               const ElasticMaterial& material = kSteel, double thickness = 1) {
   Component component;
   component.material = material;
   component.thickness = thickness;
-  return appendBody(model, mesh, component);
+  return appendBlock(model, low, high, nx, ny, component);
 }
 
 inline Model modelOf(const TriangleMesh& mesh, const ElasticMaterial& material,
