@@ -175,7 +175,7 @@ double Cohesion::opened(const std::vector<Vec2>& position, std::span<const std::
 /// Sweeps over points that share nodes, starting from the tractions of the last step, until no
 /// traction changes any more, or no opening: around a node that is split all round, tractions that
 /// move no node can grow by the same amount in each sweep. Returns the largest change in the last
-/// sweep, divided by the strength.
+/// sweep, divided by the strength; 0 if no opening changes.
 double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
   assert(!group.empty());
   for (const std::uint32_t i : group) points_[i].change = {};
@@ -195,7 +195,7 @@ double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_
     if (group.size() == 1 && points_[group[0]].isEven) return 0;  // exact after one solution
     if (worst <= tolerance::kCohesionChange) break;
     if (sweep % tolerance::kSweepsToSumUp != 0) continue;
-    if (opened(position, group) <= tolerance::kSameOpening) break;
+    if (opened(position, group) <= tolerance::kSameOpening) return 0;
     const bool isSeries =
         common > 0 && common < before && common * common >= tolerance::kSameChange * now * before;
     if (!isSeries || sweep > tolerance::kCohesionSweeps - tolerance::kSweepsToSettle) continue;
