@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/tolerances/step.hpp"
+#include "step/overlap_check.hpp"
+#include "step/stages.hpp"
+#include "time/critical_time_step.hpp"
 
 namespace yadefrag {
 
@@ -30,6 +35,28 @@ bool mustEvaluate(double amount, double tolerated, double& looked) {
   if (!(amount > tolerated && amount > tolerance::kEvaluateAgain * looked)) return false;
   looked = amount;
   return true;
+}
+
+/// (m) The deepest overlap of straight boundaries, at any point; arcs deviate from the triangles.
+/// All points of bodies that can crack are slaves: only the other bodies, if two or more, are
+/// checked.
+double overlapOfBoundaries(const WorldState& state, int threads) {
+  const Model& model = state.model;
+  const ContactSurfaces& surfaces = state.surfaces;
+  const auto isChecked = [&](const Component& body) {
+    return !body.rigid && !body.brittle.cracks();
+  };
+  if (std::ranges::count_if(model.components, isChecked) < 2) return 0;
+  std::vector<std::uint8_t> straight(model.nodes.size());
+  // Interior nodes may come last; nodeSegment ends before them.
+  for (std::size_t n = 0; n < surfaces.nodeSegment.size(); ++n) {
+    const SegmentId segment = surfaces.nodeSegment[n];
+    straight[n] = segment != SegmentId::none() && !surfaces.isSmooth(segment) &&
+                          isChecked(model.components[model.nodes.component[n].value])
+                      ? 1
+                      : 0;
+  }
+  return deepestOverlap(model, straight, threads);
 }
 
 }  // namespace
@@ -174,6 +201,44 @@ std::string EnergyWatch::overlapMessage(const WatchedStep& step, double overlap)
       "{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment, at points that are not "
       "checked: with passes=1 only those of the finer boundary are; take passes=2.",
       yadefrag::begin(step), overlap, overlap / step.shortest);
+}
+
+double roundingEnergy(const WorldState& state, int threads) {
+  const Model& model = state.model;
+  double moment = 0;  // kg m²
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    moment += model.nodes.mass[n] * dot(model.nodes.position[n], model.nodes.position[n]);
+  const double rate = 2 * tolerance::kRounding / criticalTimeStep(model, {}, threads);
+  return static_cast<double>(state.steps) * moment / 2 * rate * rate;
+}
+
+void watchEnergy(const StepData& data) {
+  const auto& [state, scratch, exchange, settings] = data;
+  EnergyWatch& watch = state.watch;
+  const WatchedStep now{
+      state.steps,    state.time,        state.lastDt, state.contact.maxPenetration(),
+      scratch.finest, state.search.halo, state.ledger};
+  const auto report = [&state](std::string sentence) {
+    if (!sentence.empty()) state.warnings.push_back(std::move(sentence));
+  };
+  const auto rounding = [&] { return roundingEnergy(state, settings.threads); };
+  watch.count(now);
+  if (watch.mayHaveCreated(now)) report(watch.contactMessage(now, rounding()));
+  if (EnergyWatch::isDue(state.steps)) {
+    if (watch.mayHaveSpun(now)) report(watch.spinMessage(now, sumOfSpins(state.model.nodes)));
+    const double kinetic = state.kineticEnergy();
+    if (watch.mayHaveGrown(now, kinetic)) {
+      const double energy = kinetic + state.strainEnergy() + state.pendingPlastic();
+      const double grown = state.ledger.total(energy, 0) - watch.expected;
+      // The energy of rounding takes long to compute; it is needed only if the excess is large.
+      const bool isMuch = grown > tolerance::kGivenEnergy * watch.most;
+      report(watch.growthMessage(now, energy, isMuch ? rounding() : 0));
+    }
+  }
+  report(watch.depthMessage(now));
+  if (settings.contactSettings.passes == 1 && EnergyWatch::isOverlapDue(state.steps) &&
+      !state.contact.rows().empty())
+    report(watch.overlapMessage(now, overlapOfBoundaries(state, settings.threads)));
 }
 
 }  // namespace yadefrag

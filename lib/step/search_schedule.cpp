@@ -7,6 +7,7 @@
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/step.hpp"
+#include "step/state.hpp"
 
 namespace yadefrag {
 
@@ -26,20 +27,21 @@ double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
   return std::isfinite(least) ? std::sqrt(least) : 0;
 }
 
-void SearchSchedule::rebuild(const Scene& scene) {
-  if (isVoid() && scene.canTouch) watchAll(scene);
+void SearchSchedule::rebuild(const StepData& data) {
+  if (isVoid() && data.scratch.canTouch) watchAll(data);
   const SearchBounds bounds = std::exchange(loaded, {});
-  if (scene.canTouch) {
+  if (data.scratch.canTouch) {
     // A loaded state may crack before its first search.
-    passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings, scene.hasRigid);
+    passRule_.update(data.state.surfaces, data.state.model.nodes.reference,
+                     data.settings.contactSettings, !data.scratch.rigidNodes.empty());
   } else {
     // There will be no search, but bounds for a collider, which watches them by itself.
-    shortest = scene.finest;
+    shortest = data.scratch.finest;
     halo = tolerance::kNarrowestHalo * shortest;
   }
-  scene.dynamics.setSpeedLimit(scene.canTouch ? bounds.speed : tolerance::kMostSpeed);
+  data.scratch.dynamics.setSpeedLimit(data.scratch.canTouch ? bounds.speed : tolerance::kMostSpeed);
   search_.reset();
-  scene.contact.candidates.index(scene.surfaces.entries());
+  data.state.contact.candidates.index(data.state.surfaces.entries());
   motion_.farthest = bounds.farthest;
 }
 
@@ -63,46 +65,47 @@ void SearchSchedule::keep() {
   former_.hasSearched = true;
 }
 
-void SearchSchedule::undo(const Scene& scene) {
+void SearchSchedule::undo(Contact& contact) {
   if (former_.hasSearched && !former_.hasCandidates) search_.reset();  // it may be incomplete
-  if (former_.hasCandidates) scene.contact.candidates = std::move(former_.candidates);
+  if (former_.hasCandidates) contact.candidates = std::move(former_.candidates);
   if (former_.hasSearched) std::swap(static_cast<SearchState&>(*this), former_.search);
   motion_ = former_.motion;
 }
 
-void SearchSchedule::watchAll(const Scene& scene) {
+void SearchSchedule::watchAll(const StepData& data) {
   nodes.clear();
-  for (const NodeId node : scene.surfaces.segmentNode)
-    if (scene.model.nodes.mass[node.value] > 0) nodes.push_back(node);
+  for (const NodeId node : data.state.surfaces.segmentNode)
+    if (data.state.model.nodes.mass[node.value] > 0) nodes.push_back(node);
   std::sort(nodes.begin(), nodes.end());
 }
 
 /// Bounds of the displacements, before the step moves nodes.
-void SearchSchedule::boundMotion(const Scene& scene, double dt) {
-  if (!scene.canTouch) return;
-  const StageTimer timer(scene.times, &StageTimes::search);
-  const double most = scene.dynamics.speedLimit() * dt;
-  motion_.isQuiet = scene.contact.candidates.size() == 0 && !isDue() && !scene.holdsCracks &&
+void SearchSchedule::boundMotion(const StepData& data, double dt) {
+  if (!data.scratch.canTouch) return;
+  const StageTimer timer(data.times(), &StageTimes::search);
+  const double most = data.scratch.dynamics.speedLimit() * dt;
+  motion_.isQuiet = data.state.contact.candidates.size() == 0 && !isDue() &&
+                    data.state.fracture.cohesion.edge.empty() &&
                     motion_.farthest + most <= halo / 2 &&
-                    most <= tolerance::kFarthestMove * scene.finest;
+                    most <= tolerance::kFarthestMove * data.scratch.finest;
 }
 
 /// Uses x*. If no node is faster than predicted, a quiet step needs no check of the nodes.
-void SearchSchedule::measureMove(const Scene& scene, double dt) {
-  const StageTimer timer(scene.times, &StageTimes::search);
-  if (scene.dynamics.anyAboveSpeedLimit()) {
-    updateSpeedLimit(scene, dt);
+void SearchSchedule::measureMove(const StepData& data, double dt) {
+  const StageTimer timer(data.times(), &StageTimes::search);
+  if (data.scratch.dynamics.anyAboveSpeedLimit()) {
+    updateSpeedLimit(data, dt);
     motion_.isQuiet = false;
   } else {
-    motion_.most = scene.dynamics.speedLimit() * dt;
+    motion_.most = data.scratch.dynamics.speedLimit() * dt;
   }
   if (motion_.isQuiet) {
     motion_.largest = motion_.most;
   } else {
     double most = 0;
-    const std::span<const Vec2> before = scene.dynamics.previousPosition();
+    const std::span<const Vec2> before = data.scratch.dynamics.previousPosition();
     for (const NodeId node : nodes) {
-      const Vec2 moved = scene.model.nodes.position[node.value] - before[node.value];
+      const Vec2 moved = data.state.model.nodes.position[node.value] - before[node.value];
       most = std::max(most, dot(moved, moved));
     }
     motion_.largest = std::sqrt(most);
@@ -111,27 +114,28 @@ void SearchSchedule::measureMove(const Scene& scene, double dt) {
 }
 
 /// Determines the largest speed of all nodes, and sets the limit that the next steps check.
-void SearchSchedule::updateSpeedLimit(const Scene& scene, double dt) {
+void SearchSchedule::updateSpeedLimit(const StepData& data, double dt) {
   double most = 0;
-  for (const Vec2 velocity : scene.model.nodes.velocity)
+  for (const Vec2 velocity : data.state.model.nodes.velocity)
     most = std::max(most, dot(velocity, velocity));
   most = std::sqrt(most);
   motion_.most = most * dt;
-  scene.dynamics.setSpeedLimit(std::min(tolerance::kSpeedSpare * most, tolerance::kMostSpeed));
+  data.scratch.dynamics.setSpeedLimit(
+      std::min(tolerance::kSpeedSpare * most, tolerance::kMostSpeed));
 }
 
 /// Predicts whether the next step may leave the halo.
-void SearchSchedule::foreseeSearch(const Scene& scene, double dt) {
+void SearchSchedule::foreseeSearch(const StepData& data, double dt) {
   if (isDue()) return;
-  const StageTimer timer(scene.times, &StageTimes::search);
-  const double most = motion_.largest + scene.contact.largestCorrection();
+  const StageTimer timer(data.times(), &StageTimes::search);
+  const double most = motion_.largest + data.state.contact.largestCorrection();
   if (motion_.farthest + tolerance::kHaloSpare * most <= halo / 2) return;
   double farthest = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::uint32_t node = nodes[i].value;
-    const double moved = norm(scene.model.nodes.position[node] - positions[i]);
+    const double moved = norm(data.state.model.nodes.position[node] - positions[i]);
     farthest = std::max(farthest, moved);
-    const double next = tolerance::kHaloSpare * norm(scene.model.nodes.velocity[node]) * dt;
+    const double next = tolerance::kHaloSpare * norm(data.state.model.nodes.velocity[node]) * dt;
     if (moved + next > halo / 2) return makeDue();
   }
   motion_.farthest = farthest;
@@ -149,61 +153,65 @@ double SearchSchedule::wideHalo(const ContactSettings& settings, double move) co
 }
 
 /// As wide as this step's own displacement demands.
-void SearchSchedule::chooseHalo(const Scene& scene) {
-  shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
-  halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
+void SearchSchedule::chooseHalo(const StepData& data) {
+  shortest =
+      shortestSegment(data.state.model, data.state.surfaces, data.state.model.nodes.position);
+  halo = wideHalo(data.settings.contactSettings, 2 * tolerance::kHaloSpare * motion_.largest);
 }
 
-void SearchSchedule::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
-  passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings, scene.hasRigid);
+void SearchSchedule::considerPairs(const StepData& data, std::span<const BoxPair> overlapping) {
+  passRule_.update(data.state.surfaces, data.state.model.nodes.reference,
+                   data.settings.contactSettings, !data.scratch.rigidNodes.empty());
   pairs_.clear();
-  selectPairs(scene.model, scene.surfaces, passRule_, scene.model.nodes.position, halo, overlapping,
-              pairs_);
+  selectPairs(data.state.model, data.state.surfaces, passRule_, data.state.model.nodes.position,
+              halo, overlapping, pairs_);
   former_.candidates =
-      replaceCandidates(scene.contact.candidates, pairs_, scene.surfaces.entries());
+      replaceCandidates(data.state.contact.candidates, pairs_, data.state.surfaces.entries());
   former_.hasCandidates = true;
   positions.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    positions[i] = scene.model.nodes.position[nodes[i].value];
+    positions[i] = data.state.model.nodes.position[nodes[i].value];
   motion_.farthest = 0;
   validity = Validity::kValid;
   ++count;
   // If all nodes are checked in every step, no bound of their speed is needed.
-  if (scene.contact.candidates.size() > 0) scene.dynamics.setSpeedLimit(tolerance::kMostSpeed);
+  if (data.state.contact.candidates.size() > 0)
+    data.scratch.dynamics.setSpeedLimit(tolerance::kMostSpeed);
 }
 
 /// No contact is missed: independently of predictions, x* is decisive.
-void SearchSchedule::searchIfLeft(const Scene& scene, double dt) {
-  const StageTimer timer(scene.times, &StageTimes::search);
-  if (isDue()) return searchNow(scene, dt);
+void SearchSchedule::searchIfLeft(const StepData& data, double dt) {
+  const StageTimer timer(data.times(), &StageTimes::search);
+  if (isDue()) return searchNow(data, dt);
   if (motion_.farthest <= halo / 2) return;
   double most = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec2 moved = scene.model.nodes.position[nodes[i].value] - positions[i];
+    const Vec2 moved = data.state.model.nodes.position[nodes[i].value] - positions[i];
     most = std::max(most, dot(moved, moved));
   }
   motion_.farthest = std::sqrt(most);
-  if (!(motion_.farthest <= halo / 2)) searchNow(scene, dt);
+  if (!(motion_.farthest <= halo / 2)) searchNow(data, dt);
 }
 
 /// The search, at x*: boxes of all entries, update of the position codes, pairs.
-void SearchSchedule::searchNow(const Scene& scene, double dt) {
+void SearchSchedule::searchNow(const StepData& data, double dt) {
   keep();
-  chooseHalo(scene);
-  updateSpeedLimit(scene, dt);
+  chooseHalo(data);
+  updateSpeedLimit(data, dt);
   // The pairs are sorted later, so that their order does not matter.
   if (!search_) search_ = makeSearch(SearchMethod::kFastest);
-  boxes_.resize(scene.surfaces.entries());
+  boxes_.resize(data.state.surfaces.entries());
   for (std::size_t e = 0; e < boxes_.size(); ++e) {
-    boxes_[e] = scene.surfaces.isGone(EntryId(e))
-                    ? Box::absent()
-                    : entryBox(scene.surfaces, scene.model.nodes.position, EntryId(e), halo);
+    boxes_[e] =
+        data.state.surfaces.isGone(EntryId(e))
+            ? Box::absent()
+            : entryBox(data.state.surfaces, data.state.model.nodes.position, EntryId(e), halo);
   }
-  search_->setThreads(scene.threads);
+  search_->setThreads(data.settings.threads);
   search_->update(boxes_);
   overlapping_.clear();
   search_->findPairs(overlapping_);
-  considerPairs(scene, overlapping_);
+  considerPairs(data, overlapping_);
 }
 
 void SearchSchedule::addCorrection(double most) { motion_.farthest += most; }
@@ -224,15 +232,15 @@ void SearchSchedule::removeDropped(const Model& model) {
   positions.resize(kept);
 }
 
-void SearchSchedule::addCandidatesAround(const Scene& scene, std::span<const SurfaceSide> sides) {
-  const std::vector<Vec2>& places = scene.model.nodes.position;
-  scene.contact.candidates.index(scene.surfaces.entries());
+void SearchSchedule::addCandidatesAround(const StepData& data, std::span<const SurfaceSide> sides) {
+  const std::vector<Vec2>& places = data.state.model.nodes.position;
+  data.state.contact.candidates.index(data.state.surfaces.entries());
   const std::vector<EntryId> around =
-      entriesAround(scene.surfaces, scene.contact.candidates, sides);
+      entriesAround(data.state.surfaces, data.state.contact.candidates, sides);
   pairs_.clear();
-  selectPairs(scene.model, scene.surfaces, passRule_, places, halo,
-              overlapsAmong(scene.surfaces, places, around, halo), pairs_);
-  addCandidates(scene.contact.candidates, pairs_, around);
+  selectPairs(data.state.model, data.state.surfaces, passRule_, places, halo,
+              overlapsAmong(data.state.surfaces, places, around, halo), pairs_);
+  addCandidates(data.state.contact.candidates, pairs_, around);
 }
 
 }  // namespace yadefrag

@@ -93,40 +93,30 @@ struct SearchState {
   void makeVoid() { validity = Validity::kVoid; }
 };
 
+/// Model, surfaces and contact of the step (step/state.hpp).
+struct StepData;
+
 class SearchSchedule : public SearchState {
  public:
-  /// The data that are checked, and those that a search changes.
-  struct Scene {
-    const Model& model;
-    const ContactSurfaces& surfaces;
-    const ContactSettings& settings;
-    double finest;  ///< m, shortest stress-free segment
-    bool canTouch, hasRigid, holdsCracks;
-    int threads;
-    StageTimes* times;  ///< null: not measured
-    ExplicitDynamics& dynamics;
-    Contact& contact;
-  };
-
   /// Must be called after bodies were added or removed, and after loading.
-  void rebuild(const Scene& scene);
+  void rebuild(const StepData& data);
   /// Must be called after nodes have changed their numbers: the next step does a search.
   void invalidate();
 
   // --- in the order of a step
   void begin();
   /// Before the step moves nodes.
-  void boundMotion(const Scene& scene, double dt);
+  void boundMotion(const StepData& data, double dt);
   /// Uses x*.
-  void measureMove(const Scene& scene, double dt);
+  void measureMove(const StepData& data, double dt);
   /// At x*, if a node has left the halo.
-  void searchIfLeft(const Scene& scene, double dt);
+  void searchIfLeft(const StepData& data, double dt);
   /// Upper bound (m) of the displacement of nodes by contact.
   void addCorrection(double most);
   /// With xⁿ⁺¹: predicts whether the next step may leave the halo.
-  void foreseeSearch(const Scene& scene, double dt);
+  void foreseeSearch(const StepData& data, double dt);
   /// Restores the state at `begin`, for a refused step. Allocates no memory.
-  void undo(const Scene& scene);
+  void undo(Contact& contact);
 
   /// (m) Margin of bounds that a collider makes now, for contact with bodies that are not part of
   /// the world: up to the next search no checked node moves farther from its present position. 0
@@ -140,7 +130,7 @@ class SearchSchedule : public SearchState {
   void appear(NodeId node, Vec2 place);
   /// Adds candidates among the new faces and all entries near them: a slave within the halo of an
   /// old piece beside the crack may be in the halo of a new one.
-  void addCandidatesAround(const Scene& scene, std::span<const SurfaceSide> sides);
+  void addCandidatesAround(const StepData& data, std::span<const SurfaceSide> sides);
 
   [[nodiscard]] SearchBounds bounds(const ExplicitDynamics& dynamics) const {
     return {motion_.farthest, dynamics.speedLimit()};
@@ -165,13 +155,13 @@ class SearchSchedule : public SearchState {
     Candidates candidates;
   };
 
-  void watchAll(const Scene& scene);
-  void updateSpeedLimit(const Scene& scene, double dt);
+  void watchAll(const StepData& data);
+  void updateSpeedLimit(const StepData& data, double dt);
   [[nodiscard]] double wideHalo(const ContactSettings& settings, double move) const;
-  void chooseHalo(const Scene& scene);
+  void chooseHalo(const StepData& data);
   void keep();
-  void searchNow(const Scene& scene, double dt);
-  void considerPairs(const Scene& scene, std::span<const BoxPair> overlapping);
+  void searchNow(const StepData& data, double dt);
+  void considerPairs(const StepData& data, std::span<const BoxPair> overlapping);
 
   MotionBounds motion_;
   Former former_;

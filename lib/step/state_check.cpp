@@ -1,5 +1,5 @@
 #include "mesh/material_constants.hpp"
-#include "step/world.hpp"
+#include "step/state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,13 +59,13 @@ bool motionsAreValid(const Model& model) {
          std::ranges::all_of(n.motion, [&](std::uint32_t m) { return m <= model.motions.size(); });
 }
 
-bool nodesAreValid(const World& world) {
-  const Nodes& n = world.model.nodes;
+bool nodesAreValid(const WorldState& state) {
+  const Nodes& n = state.model.nodes;
   return haveLength(n.columns(), n.size()) && allFinite(n.position) && allFinite(n.velocity) &&
          allFinite(n.load) && allFinite(n.reference) &&
          std::ranges::all_of(n.mass, [](double m) { return m >= 0 && std::isfinite(m); }) &&
          std::ranges::all_of(n.held, [](std::uint8_t h) { return h <= kHeldXY; }) &&
-         allBelow(n.component, world.model.components.size()) && motionsAreValid(world.model);
+         allBelow(n.component, state.model.components.size()) && motionsAreValid(state.model);
 }
 
 /// Nodes of triangles that were not removed have a mass.
@@ -109,60 +109,60 @@ bool trianglesAreValid(const Model& model) {
   return true;
 }
 
-bool segmentsAreValid(const World& world) {
-  const ContactSurfaces& s = world.surfaces;
+bool segmentsAreValid(const WorldState& state) {
+  const ContactSurfaces& s = state.surfaces;
   const std::size_t count = s.segments();
   return haveLength(s.segmentColumns(), count) && areLinks(s.segmentNext, s.segmentPrev) &&
          allBelow(s.segmentEntry, s.entries()) &&
-         s.nodeSegment.size() <= world.model.nodes.size() && allBelowOrNone(s.nodeSegment, count) &&
+         s.nodeSegment.size() <= state.model.nodes.size() && allBelowOrNone(s.nodeSegment, count) &&
          allBelow(s.segmentNode, s.nodeSegment.size());
 }
 
-bool entriesAreValid(const World& world) {
-  const ContactSurfaces& s = world.surfaces;
+bool entriesAreValid(const WorldState& state) {
+  const ContactSurfaces& s = state.surfaces;
   const std::size_t count = s.entries();
   return haveLength(s.entryColumns(), count) && areLinks(s.next, s.prev) &&
          allBelow(s.entrySegment, s.segments()) &&
-         allBelow(s.component, world.model.components.size()) &&
+         allBelow(s.component, state.model.components.size()) &&
          std::ranges::all_of(s.piece, [](Piece p) { return p <= Piece::kGone; }) &&
          std::ranges::all_of(s.loop, [&](std::uint32_t l) { return l <= count; });
 }
 
-bool loadsAreValid(const World& world) {
-  const std::size_t count = world.surfaces.segments();
-  return allBelow(world.loads.absorbing.segments, count) &&
-         std::ranges::all_of(world.loads.pressures, [&](const Pressure& p) {
+bool loadsAreValid(const WorldState& state) {
+  const std::size_t count = state.surfaces.segments();
+  return allBelow(state.loads.absorbing.segments, count) &&
+         std::ranges::all_of(state.loads.pressures, [&](const Pressure& p) {
            const bool staysOut = p.firstNew == Pressure::kNever;
            return allBelow(p.segments, count) && (staysOut || p.firstNew <= count);
          });
 }
 
-bool contactIsValid(const World& world) {
-  const Candidates& c = world.contact.candidates;
-  const std::size_t entries = world.surfaces.entries();
+bool contactIsValid(const WorldState& state) {
+  const Candidates& c = state.contact.candidates;
+  const std::size_t entries = state.surfaces.entries();
   const bool offsetsFit = c.offsets.empty()
                               ? c.slaves.empty() && c.masters.empty()
                               : c.offsets.size() == c.slaves.size() + 1 && c.offsets.front() == 0 &&
                                     c.offsets.back() == c.masters.size() &&
                                     std::ranges::is_sorted(c.offsets);
   return offsetsFit && allBelow(c.slaves, entries) && allBelow(c.masters, entries) &&
-         std::ranges::all_of(world.contact.touches, [&](const StoredContact& t) {
+         std::ranges::all_of(state.contact.touches, [&](const StoredContact& t) {
            return t.pair.slave.value < entries && t.pair.master.value < entries;
          });
 }
 
-bool searchIsValid(const World& world) {
-  const SearchState& s = world.search;
-  return s.halo >= 0 && std::isfinite(s.halo) && allBelow(s.nodes, world.model.nodes.size()) &&
+bool searchIsValid(const WorldState& state) {
+  const SearchState& s = state.search;
+  return s.halo >= 0 && std::isfinite(s.halo) && allBelow(s.nodes, state.model.nodes.size()) &&
          (s.isVoid() || s.positions.size() == s.nodes.size()) && allFinite(s.positions) &&
          s.loaded.farthest >= 0 && s.loaded.speed >= 0;
 }
 
-bool edgesAreValid(const World& world) {
-  const CrackEdges& e = world.fracture.edges;
-  const std::size_t count = e.size(), triangles = world.model.triangles.size();
+bool edgesAreValid(const WorldState& state) {
+  const CrackEdges& e = state.fracture.edges;
+  const std::size_t count = e.size(), triangles = state.model.triangles.size();
   if (!haveLength(e.columns(), count) || e.ofElement.size() > triangles ||
-      e.ofNode.size() > world.model.nodes.size() || !allBelowOrNone(e.ofNode, triangles))
+      e.ofNode.size() > state.model.nodes.size() || !allBelowOrNone(e.ofNode, triangles))
     return false;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < 2; ++k) {
@@ -187,25 +187,25 @@ bool overloadsAreValid(const Fracture& fracture) {
          });
 }
 
-bool fractureIsValid(const World& world) {
-  const Cohesion& c = world.fracture.cohesion;
-  return edgesAreValid(world) && world.fracture.started.size() <= world.fracture.edges.size() &&
-         overloadsAreValid(world.fracture) &&
-         std::ranges::none_of(world.fracture.started, [](double t) { return std::isnan(t); }) &&
-         haveLength(c.columns(), c.edge.size()) && allBelow(c.edge, world.fracture.edges.size());
+bool fractureIsValid(const WorldState& state) {
+  const Cohesion& c = state.fracture.cohesion;
+  return edgesAreValid(state) && state.fracture.started.size() <= state.fracture.edges.size() &&
+         overloadsAreValid(state.fracture) &&
+         std::ranges::none_of(state.fracture.started, [](double t) { return std::isnan(t); }) &&
+         haveLength(c.columns(), c.edge.size()) && allBelow(c.edge, state.fracture.edges.size());
 }
 
 }  // namespace
 
-std::string findInvalidPart(const World& world) {
-  if (!componentsAreValid(world.model)) return "a body's values";
-  if (!nodesAreValid(world)) return "its nodes";
-  if (!trianglesAreValid(world.model)) return "its triangles";
-  if (!segmentsAreValid(world) || !entriesAreValid(world)) return "its boundaries";
-  if (!loadsAreValid(world)) return "its loads";
-  if (!contactIsValid(world)) return "its contacts";
-  if (!searchIsValid(world)) return "its search data";
-  if (!fractureIsValid(world)) return "its cracks";
+std::string findInvalidPart(const WorldState& state) {
+  if (!componentsAreValid(state.model)) return "a body's values";
+  if (!nodesAreValid(state)) return "its nodes";
+  if (!trianglesAreValid(state.model)) return "its triangles";
+  if (!segmentsAreValid(state) || !entriesAreValid(state)) return "its boundaries";
+  if (!loadsAreValid(state)) return "its loads";
+  if (!contactIsValid(state)) return "its contacts";
+  if (!searchIsValid(state)) return "its search data";
+  if (!fractureIsValid(state)) return "its cracks";
   return {};
 }
 

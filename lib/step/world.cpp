@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
@@ -40,6 +40,20 @@ void setResistance(Model& model, ComponentId id, const BodySpec& spec) {
   }
 }
 
+/// (J) Energy of a body's nodes and of its elements, in a step of
+/// `dt` (s).
+double energyOf(const Model& model, ComponentId body, double dt) {
+  double twice = 0;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes.component[n] == body)
+      twice += model.nodes.mass[n] * dot(model.nodes.velocity[n], model.nodes.velocity[n]);
+  const Component& component = model.components[body.value];
+  std::vector<ElementId> elements;
+  for (std::size_t e = component.firstTriangle; e < component.lastTriangle; ++e)
+    elements.emplace_back(e);
+  return twice / 2 + strainEnergy(model, dt, elements);
+}
+
 /// Of its edges, which have no strength before a triangle fails.
 BrittlePlaces edgePlaces(const BodySpec& spec) {
   BrittlePlaces places = spec.places;
@@ -48,6 +62,24 @@ BrittlePlaces edgePlaces(const BodySpec& spec) {
 }
 
 }  // namespace
+
+/// Contact prevents new overlaps only; bodies that overlap initially would pass through each other.
+void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
+                         const std::string& subject) {
+  BodyPlaces& places = scratch_.places;
+  if (scratch_.isBuilt)
+    places.clear();  // a step may have moved bodies; between steps they are only added
+  places.update(model, surfaces);
+  const auto overlap = findOverlap(model, surfaces, places, mesh, spec);
+  if (!overlap) return;
+  const Component& other = model.components[overlap->body.value];
+  throw OverlapError(
+      fmt::format("{} overlaps {} at ({:.9g}, {:.9g}) m by {:.3g} m; it may touch others at the "
+                  "start, but not overlap them.",
+                  subject, other.rigid ? other.name : fmt::format("body {}", overlap->body.value),
+                  overlap->place.x, overlap->place.y, overlap->depth),
+      overlap->depth);
+}
 
 ComponentId World::addBody(const TriangleMesh& given, const BodySpec& spec) {
   checkBody(given, spec, model.axisymmetric);
@@ -83,15 +115,22 @@ ComponentId World::addBody(const TriangleMesh& given, const BodySpec& spec) {
   }
   openJoints(fracture.addBody(model, id, edgePlaces(spec)));
   // From the first step on a body brings its energy from outside, and takes it there.
-  const double energy = energyOf(id, NodeId(first), lastDt);
+  const double brought = energyOf(model, id, lastDt);
   if (steps > 0)
-    ledger.external += energy;
+    ledger.external += brought;
   else
-    watch.join(energy);
+    watch.join(brought);
   stableStep = 0;
   search.invalidate();
   rebuild();
   return id;
+}
+
+/// For a new body, before other data depend on it.
+void World::openJoints(std::span<const EdgeId> joints) {
+  if (joints.empty()) return;
+  fracture.open(model, surfaces, joints, scratch_.split);
+  (void)relink(surfaces, scratch_.split.sides);
 }
 
 /// `purpose`: the intended operation, for the message.
@@ -105,7 +144,6 @@ void World::requireBody(ComponentId component, const char* purpose) const {
 
 void World::removeBody(ComponentId component) {
   requireBody(component, "remove");
-  const auto energy = [&] { return kineticEnergy() + strainEnergy() + pendingPlastic(); };
   const double before = energy();
   const ElementId first(model.components[component.value].firstTriangle);
   const ElementId last(model.components[component.value].lastTriangle);
@@ -124,12 +162,12 @@ void World::removeBody(ComponentId component) {
 std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
                                     std::span<const NodeId> renumbered) {
   search.invalidate();
-  places_.clear();
+  scratch_.places.clear();
   reactions.clear();
   auto [segments, entries] = surfaces.removeComponents(gone);
   loads.renumber(segments);
   surfaces.renumberNodes(renumbered, model.nodes.size());
-  removeUnusedMotions();
+  removeUnusedMotions(model);
   contact.renumber(entries);
   rebuild();
   return std::move(entries);
@@ -156,87 +194,64 @@ void World::setLoads(std::vector<Vec2> byNode) {
   model.nodes.load = std::move(byNode);
 }
 
-/// Derived data are made anew before the next step.
-void World::noteChange() {
-  loadedSteepness = steepness();
-  isBuilt_ = false;
-}
-
-void World::rebuild() {
-  broken_.clear();
-  rigidNodes_.clear();
-  for (std::size_t n = 0; n < model.nodes.size(); ++n)
-    if (model.components[model.nodes.component[n].value].rigid) rigidNodes_.emplace_back(n);
-  contact.resize(model.nodes.size());
-  noteChange();
-}
-
-void World::buildIfChanged() {
-  if (isBuilt_) return;
-  places_.clear();
-  dynamics_.rebuild(model);
-  if (stableStep > 0) dynamics_.flow().restore(loadedSteepness);
-  loads.absorbing.findTriangles(model, surfaces);
-  for (std::size_t n = 0; n < reactions.size(); ++n)
-    if (model.nodes.held[n] == 0) reactions[n] = {};
-  const auto& owners = surfaces.component;
-  severalBodies_ =
-      std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
-  if (fracture.isOn()) {
-    fracture.prepare(model);
-    const std::size_t room = model.nodes.position.capacity();
-    surfaces.nodeSegment.reserve(room);
-    dynamics_.reserve(room);
-    contact.reserve(room);
-  }
-  measureFinest();
-  search.rebuild(searchScene());
-  updateStressLimits();
-  droppedBelow_ = 0;
-  isBuilt_ = true;
-}
-
-/// Only elements that can crack are checked, and only if their stress is near the strength of their
-/// weakest edge.
-void World::updateStressLimits() {
-  std::vector<double>& least = fracture.leastStrength;
-  least.assign(fracture.isOn() ? model.components.size() : 0, INFINITY);
-  const CrackEdges& edges = fracture.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges.isBond(model, EdgeId(i))) continue;
-    const ComponentId body = model.triangles.component[edges.element[i][0].value];
-    least[body.value] = std::min(least[body.value], edges.strength[i]);
-  }
-  dynamics_.setStressLimits(least);
-}
-
 double World::criticalTimeStep() const {
   return yadefrag::criticalTimeStep(model, dynamicsSettings.viscosity, threads);
 }
 
-/// Checked only before the first step, and when the step or the viscosity has changed or bodies
-/// were added or removed. The reduction of the critical step by elements that nearly collapse is
-/// checked in every step (requireUpright).
-void World::requireStableStep(double dt) {
-  const BulkViscosity& viscosity = dynamicsSettings.viscosity;
-  const bool flowed = dynamics_.flow().isSteeper();
-  if (dt > 0 && dt <= stableStep && viscosity == stableViscosity && !flowed) return;
-  const double critical = criticalTimeStep();
-  if (critical == 0)
-    throw TimeStepError("No time step is stable: a velocity or a node's place is too large.");
-  // Without elements any finite step is stable.
-  if (!(dt > 0 && dt <= critical && std::isfinite(dt)))
-    throw TimeStepError(
-        fmt::format("The time step is {:g} s, but must be above 0 and at most {:g} s, the critical "
-                    "step of the present mesh.",
-                    dt, critical));
-  for (std::size_t c = 0; c < model.components.size(); ++c)
-    if (model.components[c].brittle.cracks())
-      checkCohesiveResolution(model, fracture.edges, ComponentId(c), dt);
-  checkBondResolution(model, fracture.edges, dt);
-  stableStep = dt;
-  stableViscosity = viscosity;
-  if (dynamics_.flow().isOn()) dynamics_.flow().noteSteepest(model);
+/// Derived data are made anew before the next step.
+void World::noteChange() {
+  loadedSteepness = steepness();
+  scratch_.isBuilt = false;
+}
+
+void World::rebuild() {
+  scratch_.broken.clear();
+  scratch_.rigidNodes.clear();
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.components[model.nodes.component[n].value].rigid) scratch_.rigidNodes.emplace_back(n);
+  contact.resize(model.nodes.size());
+  noteChange();
+}
+
+// --- World: bodies around an axis (Model::axisymmetric), which no node may cross.
+
+void World::setAxisymmetric(bool on) {
+  if (on == model.axisymmetric) return;
+  if (!model.nodes.position.empty())
+    throw InputError("axisymmetric can change only as long as FESolver has no bodies.");
+  model.axisymmetric = on;
+}
+
+/// The mesh with the nodes that are on the axis except for rounding exactly there. InputError for a
+/// mesh, a displacement or a material that an axis forbids.
+TriangleMesh World::besideAxis(TriangleMesh mesh, const BodySpec& spec) const {
+  double farthest = 0;
+  for (const Vec2 node : mesh.nodes) farthest = std::max({farthest, node.x, std::abs(node.y)});
+  const auto refuse = [](const char* what, double value) {
+    throw InputError(
+        fmt::format("{} x = {:g} m, but in an axisymmetric scene x is the distance from the axis: "
+                    "it must not be "
+                    "negative, and nodes on the axis stay there.",
+                    what, value));
+  };
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    double& x = mesh.nodes[i].x;
+    if (std::abs(x) <= tolerance::kLeastSize * farthest) x = 0;
+    if (x < 0) refuse("A node of the mesh is at", x);
+    if (spec.displacement.empty()) continue;
+    const double now = x + spec.displacement[i].x;
+    if (x == 0 ? now != 0 : now <= 0) refuse("displacement moves a node to", now);
+  }
+  const auto isPlane = [](const BodyMaterial& one) { return one.material.planeStress; };
+  if (isPlane(spec) || std::ranges::any_of(spec.materials.materials, isPlane))
+    throw InputError("planeStress is set, but an axisymmetric body has stresses around its axis.");
+  return mesh;
+}
+
+void World::holdOnAxis(NodeId first) {
+  if (!model.axisymmetric) return;
+  for (std::size_t n = first.value; n < model.nodes.size(); ++n)
+    if (model.isOnAxis(NodeId(n))) model.nodes.held[n] |= kHeldX, model.nodes.velocity[n].x = 0;
 }
 
 // --- World: bonds between bodies.
@@ -291,15 +306,15 @@ void World::onDivision(const DividedSides& divided) {
   (void)relink(surfaces, divided.sides);
   loads.onDivision(surfaces, divided.parents);
   search.invalidate();
-  places_.clear();
+  scratch_.places.clear();
   rebuild();
-  watch.begin(kineticEnergy() + strainEnergy() + pendingPlastic(), ledger);
+  watch.begin(energy(), ledger);
 }
 
 void World::bond(const CommonSides& sides, double strength, double energy) {
   fracture.bond(model, sides.pairs, strength, energy);
   stableStep = 0;
-  isBuilt_ = false;
+  scratch_.isBuilt = false;
 }
 
 }  // namespace yadefrag

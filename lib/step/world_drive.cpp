@@ -47,7 +47,7 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
     if (changed)
       ledger.external += model.nodes.mass[node] / 2 * (dot(present, present) - dot(former, former));
   }
-  removeUnusedMotions();
+  removeUnusedMotions(model);
   if (changed) noteChange();
 }
 
@@ -73,11 +73,10 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
     all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
     all.arm[node.value] = all.position[node.value] - added.centre;
   }
-  removeUnusedMotions();
+  removeUnusedMotions(model);
 }
 
-/// Removes motions without nodes, e.g. those of a script that changes its motion in every step.
-void World::removeUnusedMotions() {
+void removeUnusedMotions(Model& model) {
   if (model.motions.empty()) return;
   std::vector<std::uint32_t> numbers(model.motions.size() + 1);
   for (const std::uint32_t motion : model.nodes.motion) numbers[motion] = 1;
@@ -93,39 +92,44 @@ void World::removeUnusedMotions() {
   if (kept == 0) model.nodes.motion = {}, model.nodes.arm = {};
 }
 
-/// Sets the velocity of nodes with a motion such that they reach their prescribed position at the
-/// end of the step.
-void World::drive(double dt) {
+void drive(const StepData& data, double dt) {
+  const auto& [state, scratch, exchange, settings] = data;
+  Model& model = state.model;
   Nodes& nodes = model.nodes;
   if (nodes.motion.empty()) return;
+  const std::vector<Vec2>& given = exchange.givenVelocities;
   std::vector<MovedFrame> frames;
   for (const Motion& motion : model.motions) {
-    if (motion.isScripted() && givenVelocities.size() != nodes.size())
+    if (motion.isScripted() && given.size() != nodes.size())
       throw RunError(
           "nodes are moved by a function of the script, which a saved file does not have; call "
           "FESolver.prescribe for them again.");
-    frames.emplace_back(motion, time + dt);
+    frames.emplace_back(motion, state.time + dt);
   }
+  const auto rigid = [&](NodeId node) {
+    if (exchange.rigidVelocities.empty()) return Vec2{};
+    const auto at = std::ranges::lower_bound(scratch.rigidNodes, node);
+    return exchange.rigidVelocities[static_cast<std::size_t>(at - scratch.rigidNodes.begin())];
+  };
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (nodes.motion[n] == 0) continue;
     Vec2& velocity = nodes.velocity[n];
-    undo_.driven.push_back(velocity);
+    scratch.undo.driven.push_back(velocity);
     const std::uint32_t m = nodes.motion[n] - 1;
     const std::uint32_t function = model.motions[m].function;
-    const Vec2 wanted = function == Motion::kRigid ? rigidVelocity(NodeId(n))
+    const Vec2 wanted = function == Motion::kRigid ? rigid(NodeId(n))
                         : function != 0
-                            ? givenVelocities[n]
+                            ? given[n]
                             : (1 / dt) * (frames[m].place(nodes.arm[n]) - nodes.position[n]);
     if ((nodes.held[n] & kHeldX) != 0) velocity.x = model.isOnAxis(NodeId(n)) ? 0 : wanted.x;
     if ((nodes.held[n] & kHeldY) != 0) velocity.y = wanted.y;
   }
 }
 
-/// Undoes `drive`.
-void World::undoDrive() {
+void undoDrive(Nodes& nodes, std::span<const Vec2> driven) {
   std::size_t next = 0;
-  for (std::size_t n = 0; next < undo_.driven.size() && n < model.nodes.size(); ++n)
-    if (model.nodes.motion[n] != 0) model.nodes.velocity[n] = undo_.driven[next++];
+  for (std::size_t n = 0; next < driven.size() && n < nodes.size(); ++n)
+    if (nodes.motion[n] != 0) nodes.velocity[n] = driven[next++];
 }
 
 }  // namespace yadefrag

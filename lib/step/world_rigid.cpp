@@ -76,8 +76,8 @@ std::vector<EntryId> World::removeAllRigid() {
 /// bodies.
 std::vector<std::uint32_t> World::rigidEntries() const {
   std::vector<std::uint32_t> corners(surfaces.entries(), kNoCorner);
-  for (std::uint32_t i = 0; i < rigidNodes_.size(); ++i) {
-    const SegmentId segment = surfaces.nodeSegment[rigidNodes_[i].value];
+  for (std::uint32_t i = 0; i < scratch_.rigidNodes.size(); ++i) {
+    const SegmentId segment = surfaces.nodeSegment[scratch_.rigidNodes[i].value];
     corners[surfaces.segmentEntry[segment.value].value] = i;
   }
   return corners;
@@ -108,15 +108,10 @@ void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::
 void World::slideRigid(std::span<const Vec2> places) {
   Nodes& nodes = model.nodes;
   for (std::size_t i = 0; i < places.size(); ++i)
-    nodes.position[rigidNodes_[i].value] = nodes.reference[rigidNodes_[i].value] = places[i];
-  places_.clear();
+    nodes.position[scratch_.rigidNodes[i].value] = nodes.reference[scratch_.rigidNodes[i].value] =
+        places[i];
+  scratch_.places.clear();
   search.makeVoid();
-}
-
-Vec2 World::rigidVelocity(NodeId node) const {
-  if (rigidVelocities.empty()) return {};
-  const auto at = std::ranges::lower_bound(rigidNodes_, node);
-  return rigidVelocities[static_cast<std::size_t>(at - rigidNodes_.begin())];
 }
 
 }  // namespace yadefrag

@@ -1,5 +1,4 @@
-// Refuses bodies and steps for which contact could be missed or wrong: bodies that overlap
-// initially, or displacements that are too large.
+// Refuses steps for which contact could be missed or wrong.
 
 #include <fmt/core.h>
 
@@ -8,8 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/step.hpp"
-#include "step/overlap_check.hpp"
-#include "step/world.hpp"
+#include "step/stages.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
@@ -47,30 +45,15 @@ double chord(const PieceEnds& ends) { return norm(ends.end - ends.begin); }
 
 }  // namespace
 
-/// Contact prevents new overlaps only; bodies that overlap initially would pass through each other.
-void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
-                         const std::string& subject) {
-  if (isBuilt_) places_.clear();  // a step may have moved bodies; between steps they are only added
-  places_.update(model, surfaces);
-  const auto overlap = findOverlap(model, surfaces, places_, mesh, spec);
-  if (!overlap) return;
-  const Component& other = model.components[overlap->body.value];
-  throw OverlapError(
-      fmt::format("{} overlaps {} at ({:.9g}, {:.9g}) m by {:.3g} m; it may touch others at the "
-                  "start, but not overlap them.",
-                  subject, other.rigid ? other.name : fmt::format("body {}", overlap->body.value),
-                  overlap->place.x, overlap->place.y, overlap->depth),
-      overlap->depth);
-}
-
-/// With larger displacements neither the search nor the deformation would be meaningful.
-void World::requireBoundedMotion(double dt) {
-  if (!dynamics_.anyLargeMove()) return;
-  const std::span<const Vec2> before = dynamics_.previousPosition();
+void requireBoundedMotion(const StepData& data, double dt) {
+  const ExplicitDynamics& dynamics = data.scratch.dynamics;
+  if (!dynamics.anyLargeMove()) return;
+  const double finest = data.scratch.finest;
+  const std::span<const Vec2> before = dynamics.previousPosition();
   double most = 0;
   for (std::size_t n = 0; n < before.size(); ++n)
-    most = std::max(most, norm(model.nodes.position[n] - before[n]));
-  if (most <= tolerance::kFarthestMove * finest_) return;
+    most = std::max(most, norm(data.state.model.nodes.position[n] - before[n]));
+  if (most <= tolerance::kFarthestMove * finest) return;
   if (!std::isfinite(most))
     throw RunError(
         "a node leaves the range of numbers; loads, gravity or velocities are too large for any "
@@ -79,16 +62,19 @@ void World::requireBoundedMotion(double dt) {
       "a node moves by {:g} m in one step, but may not by more than {:g} times the shortest "
       "segment, "
       "{:g} m; take a step of at most {:g} s.",
-      most, tolerance::kFarthestMove, finest_,
-      tolerance::kAdvised * dt * tolerance::kFarthestMove * finest_ / most));
+      most, tolerance::kFarthestMove, finest,
+      tolerance::kAdvised * dt * tolerance::kFarthestMove * finest / most));
 }
 
-void World::requireResolvedMotion(double dt) {
+void requireResolvedMotion(const StepData& data, double dt) {
+  const WorldState& state = data.state;
+  const double finest = data.scratch.finest;
   // The distance of two nodes decreases by at most twice the largest displacement.
-  if (2 * search.largestMove() <= tolerance::kMostMotion * finest_) return;
-  const PieceGeometry before(surfaces, dynamics_.previousPosition()),
-      now(surfaces, model.nodes.position), free(surfaces, model.nodes.reference);
-  const Candidates& candidates = contact.candidates;
+  if (2 * state.search.largestMove() <= tolerance::kMostMotion * finest) return;
+  const PieceGeometry before(state.surfaces, data.scratch.dynamics.previousPosition()),
+      now(state.surfaces, state.model.nodes.position),
+      free(state.surfaces, state.model.nodes.reference);
+  const Candidates& candidates = state.contact.candidates;
   double most = 0;
   EntryId fastest;
   for (const std::uint32_t row : candidates.rows())
@@ -108,8 +94,19 @@ void World::requireResolvedMotion(double dt) {
       tolerance::kAdvised * dt * tolerance::kMostMotion / most));
 }
 
-/// Forces so large that their work exceeds the range of numbers.
-void World::requireFiniteEnergy() const {
+void requireOutsideAxis(const Model& model) {
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    const Vec2 at = model.nodes.position[n];
+    if (at.x > 0 || model.isOnAxis(NodeId(n)) || model.nodes.mass[n] == 0) continue;
+    if (model.components[model.nodes.component[n].value].rigid) continue;
+    throw RunError(fmt::format(
+        "a node at ({:g}, {:g}) m reaches the axis; add the material on the axis as a body, or end "
+        "the run before.",
+        at.x, at.y));
+  }
+}
+
+void requireFiniteEnergy(const EnergyLedger& ledger) {
   if (std::isfinite(ledger.total(0, 0))) return;
   throw RunError("the works of forces on the bodies are not finite; take smaller forces.");
 }
