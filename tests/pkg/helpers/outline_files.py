@@ -36,9 +36,9 @@ def refusesMesh(folder, name, text, words):
     assert isOneSentence(error)
 
 
-def glued(plane='CPE4', cohesive='COH2D4', n=4, gap=0., section='response=TRACTION SEPARATION', order=(0, 1, 2, 3)):
-    """Text of an Abaqus file: two blocks, 20 mm by 10 mm, each of n by n/2 quads, with n cohesive elements between them:
-    3 MPa and 30 J/m². order: of the nodes of these."""
+def glued(plane='CPE4', cohesive='COH2D4', n=4, gap=0., order=(0, 1, 2, 3)):
+    """Text of an Abaqus file: two blocks, 20 mm by 10 mm, each of n by n/2 quads, between them n cohesive elements of
+    3 MPa and 30 J/m², with their nodes in this order."""
     rows, count = n // 2 + 1, itertools.count(1)
     places = [(.02 * i / n, (gap + .01) * upper + .02 * j / n)
               for upper in (0, 1) for j in range(rows) for i in range(n + 1)]
@@ -51,7 +51,7 @@ def glued(plane='CPE4', cohesive='COH2D4', n=4, gap=0., section='response=TRACTI
     lines = ['*Part, name=P', '*Node', *('%d, %r, %r' % (next(count), *place) for place in places)]
     for type, of in ((plane + ', elset=bulk', blocks), (cohesive + ', elset=joint', layer)):
         lines += ['*Element, type=' + type, *('%d, %d, %d, %d, %d' % (next(count), *its) for its in of)]
-    return '\n'.join([*lines, '*Cohesive Section, elset=joint, material=Glue, ' + section, '*End Part',
+    return '\n'.join([*lines, '*Cohesive Section, elset=joint, material=Glue, response=TRACTION SEPARATION', '*End Part',
                       '*Material, name=Glue', '*Damage Initiation, criterion=QUADS', '3e6, 3e6, 3e6',
                       '*Damage Evolution, type=ENERGY', '30.,', ''])
 

@@ -1,6 +1,6 @@
 """Elements of mesh files that are no proper ones: each is named by its number in the file and the cause. Parts of one mesh
 without common nodes: they may touch, but not overlap. Abaqus' parts, instances and sets, and what its files have that
-meshio loses; its cohesive elements, pulled apart."""
+meshio loses; joints of cohesive elements, pulled."""
 import math
 import os
 import random
@@ -300,7 +300,7 @@ def test_typesOfPlaneElements(folder, type, size, area):
 
 
 @pytest.mark.parametrize('type, size, words', [
-    ('COH2D4', 4, ' in no *COHESIVE SECTION of the response TRACTION SEPARATION, which connect parts that are separate'),
+    ('COH2D4', 4, ' in no *COHESIVE SECTION of the response TRACTION SEPARATION, which connect parts that'),
     ('COH2D4P', 6, ', which connect'),
     ('GKPE4', 4, ', which connect'), ('CINPE4', 4, ''), ('SPRING2', 2, ''), ('DC1D2', 2, ''), ('CONN2D2', 2, '')])
 def test_elementsWithoutAreaAreLeftOut(folder, type, size, words):
@@ -340,8 +340,8 @@ def test_elementsOfRevolutionNeedAnAxis(folder):
 @pytest.mark.parametrize('isRound', [False, True], ids=['plane', 'round'])
 @pytest.mark.parametrize('isBrittle', [False, True], ids=['elastic', 'brittle'])
 def test_cohesiveElementsBreakByTheirStrengthAndEnergy(folder, n, factor, gap, order, isRound, isBrittle):
-    """The force at the peak is strength times area, the work energy times area. The blocks begin without a lateral motion,
-    whose waves add at most ρcv = .05 of the strength to it at this speed, half of that where they meet."""
+    """The peak of the force is strength times area, the work energy times area. Waves of the lateral motion, which
+    begins with the pull, add up to half of ρcv to the stress: .023 of the strength at this speed."""
     text = glued(*(('CAX4R', 'COHAX4') if isRound else ('CPE4', 'COH2D4')), n=n, gap=gap, order=order)
     with pytest.warns(UserWarning, match='left out are stiffness, thickness, .* of %d elements' % n):
         mesh = readMesh(written(folder, 'a.inp', text))
@@ -367,9 +367,8 @@ def test_jointsHaveValuesOfTheirSections(folder):
     """Two materials of joints in a file of N and mm, and a point at which four of its elements meet."""
     text = '*Node\n' + ''.join('%d, %d, %d\n' % (4 * q + k + 1, q % 2 + x, q // 2 + y) for q in range(4)
                                for k, (x, y) in enumerate([(0, 0), (1, 0), (1, 1), (0, 1)]))
-    for q, type in enumerate(4 * ['CPS4']):
-        text += '*Element, type=%s\n%d, %s\n' % (type, q + 1, ', '.join(str(4 * q + k) for k in (1, 2, 3, 4)))
-    text += '*Element, type=COH2D4, elset=weak\n11, 2, 3, 8, 5\n12, 10, 11, 16, 13\n' \
+    text += '*Element, type=CPS4\n1, 1, 2, 3, 4\n2, 5, 6, 7, 8\n3, 9, 10, 11, 12\n4, 13, 14, 15, 16\n' \
+        '*Element, type=COH2D4, elset=weak\n11, 2, 3, 8, 5\n12, 10, 11, 16, 13\n' \
         '*Element, type=COH2D4, elset=strong\n13, 4, 3, 10, 9\n14, 8, 7, 14, 13\n'
     for name, strength in (('weak', 2), ('strong', 5)):
         text += '*Cohesive Section, elset=%s, material=%s, response=Traction Separation\n' \
@@ -394,32 +393,6 @@ def test_jointsHaveValuesOfTheirSections(folder):
     mesh.jointStrength = [1.]
     with pytest.raises(ValueError, match='jointStrength has 1 values, it must have one for each of the 2 joints'):
         solver.addMesh(mesh, 'm')
-
-
-@pytest.mark.parametrize('change, words', [
-    (dict(section='response=CONTINUUM'), 'COH2D4 in no [*]COHESIVE SECTION of the response TRACTION SEPARATION, which'),
-    (dict(order=(0, 1, 1, 0)), 'COH2D4 without a triangle or quad on each side, which connect parts'),
-    (dict(order=(0, 3, 1, 2)), 'COH2D4 without a triangle or quad on each side, which connect parts')])
-def test_cohesiveElementsThatAreNoJointsAreTold(folder, change, words):
-    with pytest.warns(UserWarning, match='left out are 4 elements of the type ' + words):
-        mesh = readMesh(written(folder, 'a.inp', glued(**change)))
-    assert len(mesh.nodes) == 30 and len(mesh.joints) == len(mesh.jointStrength) == 0
-
-
-@pytest.mark.parametrize('old', ['=QUADS', '=ENERGY', '30.,', '3e6, 3e6, 3e6'])
-def test_cohesiveElementsWithoutAnEnergyOrStrengthAreTold(folder, old):
-    new = {'=QUADS': '=QUADE', '=ENERGY': '=DISPLACEMENT'}.get(old, '0.,')
-    with pytest.warns(UserWarning, match="of the material 'Glue' without one strength .MAXS, QUADS. and one energy"):
-        assert not len(readMesh(written(folder, 'a.inp', glued().replace(old, new))).joints)
-
-
-@pytest.mark.parametrize('text, sentence', [
-    (glued(order=(0, 1, 3, 2)), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross'),
-    (glued(order=(0, 1, 3, 2), gap=1e-3), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross'),
-    (glued(cohesive='COHAX4'), r'it has axisymmetric elements \(COHAX4\) and plane ones \(CPE4\)'),
-    (glued('CAX4'), r'it has axisymmetric elements \(CAX4\) and plane ones \(COH2D4\)')])
-def test_wrongCohesiveElementsAreRefused(folder, text, sentence):
-    refusesMesh(folder, 'a.inp', text, sentence)
 
 
 @pytest.mark.parametrize('old, new, sentence', [

@@ -91,7 +91,7 @@ def placed(instances: list[Part], assembly: Part, materials: dict, leftOut: list
 def _joined(instances, where, places, materials, leftOut):
     """Cohesive elements as joints, the nodes of both sides as one point in their middle: (points, the number of each
     given one among them, [(both points, number of the law)], [(strength, energy)] of the laws)."""
-    points, sides, pairs, left, laws = numpy.array(places, dtype=float).reshape(-1, 3), [], [], Counter(), {}
+    points, sides, left, laws = numpy.array(places, dtype=float).reshape(-1, 3), [], Counter(), {}
     for one in instances:
         sections = {number: options for name, options in one.sections
                     for owner, number in one.sets['ELSET'].get(name, ('', ()))[1] if owner is one}
@@ -110,15 +110,14 @@ def _joined(instances, where, places, materials, leftOut):
             if (points[b] - points[a]) @ (points[c] - points[d]) <= 0:
                 raise ValueError('element %d (%s) has its nodes in a wrong order: its sides cross' % (number, type))
             left['stiffness, thickness, softening and ratios in shear of ', type + ', which are joints by addMesh'] += 1
-            sides.append((a, b, laws.setdefault(law, len(laws))))
-            pairs += [(a, d), (b, c)]
+            sides.append((a, d, b, c, laws.setdefault(law, len(laws))))
     leftOut += ['%s%s of the type %s' % (head, counted(count, 'element'), what) for (head, what), count in left.items()]
-    both, label = numpy.array(pairs, dtype=int).reshape(-1, 2), numpy.arange(len(points))
+    both, label = numpy.reshape([side[:4] for side in sides], (-1, 2)).astype(int), numpy.arange(len(points))
     while (label[both[:, 0]] != label[both[:, 1]]).any():
         numpy.minimum.at(label, both, label[both].min(axis=1, keepdims=True))
     kept, new = numpy.unique(label, return_inverse=True)
     moves = [numpy.bincount(new, way) / numpy.bincount(new) for way in (points - points[label]).T]
-    return points[kept] + numpy.transpose(moves), new, [(new[a], new[b], law) for a, b, law in sides], [*laws]
+    return points[kept] + numpy.transpose(moves), new, [(new[a], new[b], law) for a, _, b, _, law in sides], [*laws]
 
 
 def _lawOf(options, materials):
@@ -231,8 +230,7 @@ class _Reader:
         self.flat = Part('')
         self.parts, self.instances, self.assembly = {}, {}, Part('')
         self.scope = self.around = self.flat
-        self.leftOut = []
-        self.material, self.materials = '', {}  # {(NAME, keyword): (options, rows)}
+        self.leftOut, self.material, self.materials = [], '', {}  # {(NAME, keyword): (options, rows)}
 
     def take(self, keyword, options, rows):
         if keyword == 'PART':
