@@ -65,7 +65,7 @@ def placed(instances: list[Part], assembly: Part, materials: dict, leftOut: list
         for number in one.nodes:
             where['NSET'][one, number] = len(where['NSET'])
     points, new, *joints = _joined(instances, where['NSET'], points, materials, leftOut)
-    where['NSET'] = {key: int(new[number]) for key, number in where['NSET'].items()}
+    where['NSET'] = dict(zip(where['NSET'], new.tolist()))
     for one in instances:
         for number, (type, its) in one.elements.items():
             labels.append('%s.%d' % (one.name, number) if one.name else '%d' % number)
