@@ -1,4 +1,5 @@
 """What the tests of readOutline and readMesh share: files, and how far loops are from curves."""
+import itertools
 import pathlib
 import warnings
 
@@ -33,6 +34,26 @@ def refusesMesh(folder, name, text, words):
     with pytest.raises(ValueError, match=words) as error:
         readMesh(written(folder, name, text))
     assert isOneSentence(error)
+
+
+def glued(plane='CPE4', cohesive='COH2D4', n=4, gap=0., order=(0, 1, 2, 3)):
+    """Text of an Abaqus file: two blocks, 20 mm by 10 mm, each of n by n/2 quads, between them n cohesive elements of
+    3 MPa and 30 J/m², with their nodes in this order."""
+    rows, count = n // 2 + 1, itertools.count(1)
+    places = [(.02 * i / n, (gap + .01) * upper + .02 * j / n)
+              for upper in (0, 1) for j in range(rows) for i in range(n + 1)]
+
+    def quad(upper, j, i):
+        low, high = ((n + 1) * (rows * upper + j + k) + i + 1 for k in (0, 1))
+        return low, low + 1, high + 1, high
+    blocks = [quad(upper, j, i) for upper in (0, 1) for j in range(n // 2) for i in range(n)]
+    layer = [[quad(0, rows - 1, i)[k] for k in order] for i in range(n)]
+    lines = ['*Part, name=P', '*Node', *('%d, %r, %r' % (next(count), *place) for place in places)]
+    for type, of in ((plane + ', elset=bulk', blocks), (cohesive + ', elset=joint', layer)):
+        lines += ['*Element, type=' + type, *('%d, %d, %d, %d, %d' % (next(count), *its) for its in of)]
+    return '\n'.join([*lines, '*Cohesive Section, elset=joint, material=Glue, response=TRACTION SEPARATION', '*End Part',
+                      '*Material, name=Glue', '*Damage Initiation, criterion=QUADS', '3e6, 3e6, 3e6',
+                      '*Damage Evolution, type=ENERGY', '30.,', ''])
 
 
 def svg(folder, body, page='viewBox="0 0 100 50"'):

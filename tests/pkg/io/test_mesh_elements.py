@@ -1,6 +1,6 @@
 """Elements of mesh files that are no proper ones: each is named by its number in the file and the cause. Parts of one mesh
 without common nodes: they may touch, but not overlap. Abaqus' parts, instances and sets, and what its files have that
-meshio loses."""
+meshio loses; joints of cohesive elements, pulled."""
 import math
 import os
 import random
@@ -10,9 +10,11 @@ import warnings
 import numpy as np
 import pytest
 
-from fe_scene import fe, heard, O
-from outline_files import areas, lists, refusesMesh, written
+import yadefrag
+from fe_scene import brittle, fe, heard, O, ready
+from outline_files import areas, glued, isOneSentence, lists, refusesMesh, written
 from yadefrag import readMesh, rectangleMesh
+from yade import wrapper as w
 
 kPlaces = {1: (0, 0), 2: (1, 0), 3: (2, 0), 4: (0, 1), 5: (1, 1), 6: (2, 1), 7: (1, .6), 8: (1, 0), 9: (.3, .2),
            10: (.5, 0), 11: (1.2, 1.3)}
@@ -284,7 +286,8 @@ def test_keywordsSplitOverTheFileAreOneMesh(folder):
 @pytest.mark.parametrize('type, size, area', [
     ('CPS3', 3, 2), ('CPE3T', 3, 2), ('STRI3', 3, 2), ('S3R', 3, 2), ('M3D3', 3, 2), ('CPS4R', 4, 4), ('CPE4RH', 4, 4),
     ('CPS4I', 4, 4), ('S4R5', 4, 4), ('R3D4', 4, 4), ('CPEG4', 4, 4), ('CPS6M', 6, 2), ('STRI65', 6, 2),
-    ('CPE6MH', 6, 2), ('CPS8R', 8, 4), ('S8R5', 8, 4), ('S9R5', 9, 4), ('M3D9', 9, 4)])
+    ('CPE6MH', 6, 2), ('CPS8R', 8, 4), ('S8R5', 8, 4), ('S9R5', 9, 4), ('M3D9', 9, 4), ('CAX3', 3, 2), ('CAX4R', 4, 4),
+    ('CGAX4', 4, 4), ('CAX8R', 8, 4)])
 def test_typesOfPlaneElements(folder, type, size, area):
     corners = [(0, 0), (2, 0), (2, 2), (0, 2)][:3 if size in (3, 6) else 4]
     sides = [tuple(np.mean([a, b], axis=0)) for a, b in zip(corners, corners[1:] + corners[:1])]
@@ -293,10 +296,12 @@ def test_typesOfPlaneElements(folder, type, size, area):
     mesh = readMesh(written(folder, 'a.inp', '*NODE\n%s*ELEMENT, TYPE=%s\n7, %s\n' %
                             (nodes, type, ', '.join(str(i + 1) for i in range(size)))))
     assert areas(mesh).sum() == pytest.approx(area) and mesh.leftOut == []
+    assert mesh.axisymmetric is {'CP': False, 'CA': True, 'CG': True}.get(type[:2])
 
 
 @pytest.mark.parametrize('type, size, words', [
-    ('COH2D4', 4, ', which connect parts that are separate here'), ('COH2D4P', 6, ', which connect'),
+    ('COH2D4', 4, ' in no *COHESIVE SECTION of the response TRACTION SEPARATION, which connect parts that'),
+    ('COH2D4P', 6, ', which connect'),
     ('GKPE4', 4, ', which connect'), ('CINPE4', 4, ''), ('SPRING2', 2, ''), ('DC1D2', 2, ''), ('CONN2D2', 2, '')])
 def test_elementsWithoutAreaAreLeftOut(folder, type, size, words):
     """Two parts with a joint without thickness between them, as cracks are made there."""
@@ -313,9 +318,81 @@ def test_elementsWithoutAreaAreLeftOut(folder, type, size, words):
     assert points(mesh, 'joint') == ([(0, 1)] * 2 + [(1, 1)] * 2 if size > 2 else [(0, 1), (1, 1)])
 
 
-def test_elementsOfRevolutionAreTold(folder):
-    with pytest.warns(UserWarning, match='the axis of revolution of 1 element of the type CAX3'):
-        readMesh(written(folder, 'a.inp', kUnitSquare.replace('type=CPS3', 'type=CAX3')))
+def test_elementsOfRevolutionNeedAnAxis(folder):
+    plane, around = readMesh(written(folder, 'a.inp', kUnitSquare)), readMesh(written(
+        folder, 'b.inp', kUnitSquare.replace('type=CPS3', 'type=CAX3').replace('cps3', 'CAX3')))
+    with pytest.raises(ValueError, match='the elements of the mesh are axisymmetric, but fe is plane') as error:
+        fe().addMesh(around, 'm')
+    assert isOneSentence(error) and len(O.bodies) == 0
+    with pytest.warns(UserWarning, match='addMesh: the elements of the mesh are plane, but fe is axisymmetric'):
+        fe(axisymmetric=True).addMesh(plane, 'm')
+    plane.axisymmetric = around.axisymmetric = None
+    for mesh, isRound in ((plane, True), (around, False)):
+        O.reset()
+        with heard() as said:
+            fe(axisymmetric=isRound).addMesh(mesh, 'm')
+        assert not any('elements' in one for one in said)
+
+
+# Elastic blocks beside the joint, and brittle ones ten times as strong; refined; half of the step.
+@pytest.mark.parametrize('n, factor, gap, order', [
+    (4, .8, 0, (0, 1, 2, 3)), (8, .8, 1e-4, (0, 1, 2, 3)), (4, .4, 0, (1, 0, 3, 2)), (4, .5, 0, (1, 2, 3, 0))])
+@pytest.mark.parametrize('isRound', [False, True], ids=['plane', 'round'])
+@pytest.mark.parametrize('isBrittle', [False, True], ids=['elastic', 'brittle'])
+def test_cohesiveElementsBreakByTheirStrengthAndEnergy(folder, n, factor, gap, order, isRound, isBrittle):
+    """The peak of the force is strength times area, the work energy times area. Waves of the lateral motion, which
+    begins with the pull, add up to half of ρcv to the stress: .023 of the strength at this speed."""
+    text = glued(*(('CAX4R', 'COHAX4') if isRound else ('CPE4', 'COH2D4')), n=n, gap=gap, order=order)
+    with pytest.warns(UserWarning, match='left out are stiffness, thickness, .* of %d elements' % n):
+        mesh = readMesh(written(folder, 'a.inp', text))
+    assert len(mesh.nodes) == (n + 1)**2 and len(mesh.joints) == n and not mesh.jointStrength - 3e6
+    assert mesh.nodes[mesh.joints[:, :2], 1] == pytest.approx(.01 + gap / 2, rel=1e-12)
+    given = dict(young=30e9, poisson=.2, density=2500)
+    solver = fe(brittle(**given, tensileStrength=30e6) if isBrittle else w.FEMat(**given), axisymmetric=isRound)
+    top, speed, area = .02 + gap, .015, math.pi * .02**2 if isRound else .02
+    solver.addMesh(mesh, 0, velocity=lambda x, y: (0, speed * y / top),
+                   fixed=lambda x, y: 'y' if y < 1e-9 or y > top - 1e-9 else False)
+    ready(solver, factor)
+    pulled, peak, work = np.flatnonzero(solver.nodes[:, 1] > top - 1e-9), 0, 0
+    while solver.time * speed < 1.2 * 2 * 30 / 3e6:
+        O.step()
+        force = solver.reaction(pulled)[1]
+        peak, work = max(peak, force), work + force * speed * O.dt
+    assert peak == pytest.approx(3e6 * area, rel=.025)
+    assert [work, solver.energy['fracture']] == pytest.approx([30 * area] * 2, rel=.002)
+    assert solver.crackCounts == dict(open=n, damaged=0, whole=0) and len(solver.fragments()) == 2
+
+
+def test_jointsHaveValuesOfTheirSections(folder):
+    """Two materials of joints in a file of N and mm, and a point at which four of its elements meet."""
+    text = '*Node\n' + ''.join('%d, %d, %d\n' % (4 * q + k + 1, q % 2 + x, q // 2 + y) for q in range(4)
+                               for k, (x, y) in enumerate([(0, 0), (1, 0), (1, 1), (0, 1)]))
+    text += '*Element, type=CPS4\n1, 1, 2, 3, 4\n2, 5, 6, 7, 8\n3, 9, 10, 11, 12\n4, 13, 14, 15, 16\n' \
+        '*Element, type=COH2D4, elset=weak\n11, 2, 3, 8, 5\n12, 10, 11, 16, 13\n' \
+        '*Element, type=COH2D4, elset=strong\n13, 4, 3, 10, 9\n14, 8, 7, 14, 13\n'
+    for name, strength in (('weak', 2), ('strong', 5)):
+        text += '*Cohesive Section, elset=%s, material=%s, response=Traction Separation\n' \
+            '*Material, name=%s\n*Damage Initiation, criterion=MAXS\n%d., 9., 9.\n' \
+            '*Damage Evolution, type=ENERGY, mixed mode behavior=BK, power=2\n.%d, .3, .3\n' % (
+                *3 * [name], strength, strength)
+    with pytest.warns(UserWarning, match='which are joints by addMesh; the units of strength and energy .N and mm'):
+        mesh = readMesh(written(folder, 'a.inp', text), scale=1e-3)
+    assert len(mesh.nodes) == 9 and mesh.joints[:, 2].tolist() == [0, 0, 1, 1]
+    assert mesh.jointStrength.tolist() == [2, 5] and mesh.jointEnergy.tolist() == [.2, .5]
+    mesh.jointStrength *= 1e6
+    mesh.jointEnergy *= 1e3
+    solver = fe(w.FEMat(young=1e9, poisson=0, density=1000, label='m'))
+    solver.addMesh(mesh, 'm', velocity=lambda x, y: (1e4 * x, 0))
+    ready(solver, .5)
+    O.run(40, True)
+    assert yadefrag.crackTable(solver)['strength'].tolist() == [2e6, 2e6]
+    O.reset()
+    solver = fe()
+    solver.addMesh(mesh, 'm', jointStrength=[0, None])
+    assert solver.crackCounts['open'] == 2
+    mesh.jointStrength = [1.]
+    with pytest.raises(ValueError, match='jointStrength has 1 values, it must have one for each of the 2 joints'):
+        solver.addMesh(mesh, 'm')
 
 
 @pytest.mark.parametrize('old, new, sentence', [

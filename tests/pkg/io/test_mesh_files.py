@@ -1,5 +1,5 @@
 """Meshes from files: gmsh's versions and groups, names by dimension, elements in several groups or in none; sets of other
-formats; what is no plane mesh. The table mesh_formats.md: what is read of each format that meshio writes."""
+formats; what is no plane mesh. The table mesh_formats.md: what is read of each format that meshio writes. Cohesive elements that are no joints."""
 import contextlib
 import io
 import os
@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from fe_scene import fe, O
-from outline_files import areas, lists, refusesMesh, written
+from outline_files import areas, glued, lists, refusesMesh, written
 from yade import wrapper as w
 from yadefrag import readMesh, rectangleMesh
 from yadefrag.io.readers import gmsh
@@ -351,3 +351,24 @@ def test_everyCutOfAFileIsRefused(folder, isBinary):
         pathlib.Path(file).write_bytes(data[:length])
         with pytest.raises(ValueError, match='a.msh is not a readable mesh'):
             readMesh(file)
+
+
+@pytest.mark.parametrize('old, new, order, words', [
+    ('TRACTION SEPARATION', 'CONTINUUM', (0, 1, 2, 3), 'in no [*]COHESIVE SECTION of the response TRACTION SEPARATION'),
+    ('joint, mat', 'other, mat', (0, 1, 2, 3), 'in no [*]COHESIVE SECTION of the response TRACTION SEPARATION'),
+    *[('', '', order, 'without a triangle or quad on each side') for order in ((0, 1, 1, 0), (0, 3, 1, 2))],
+    *[(*both, (0, 1, 2, 3), "of the material 'Glue' without one strength .MAXS, QUADS. and one energy above 0")
+      for both in (('=QUADS', '=QUADE'), ('=ENERGY', '=DISPLACEMENT'), ('30.,', '0.'), ('3e6, 3e6, 3e6', '-1'))]])
+def test_cohesiveElementsThatAreNoJointsAreTold(folder, old, new, order, words):
+    with pytest.warns(UserWarning, match='left out are 4 elements of the type COH2D4 %s, which connect parts' % words):
+        mesh = readMesh(written(folder, 'a.inp', glued(order=order).replace(old, new)))
+    assert len(mesh.nodes) == 30 and len(mesh.joints) == len(mesh.jointStrength) == 0
+
+
+@pytest.mark.parametrize('given, sentence', [
+    (dict(order=(0, 1, 3, 2)), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross'),
+    (dict(order=(0, 1, 3, 2), gap=1e-3), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross'),
+    (dict(cohesive='COHAX4'), r'it has axisymmetric elements \(COHAX4\) and plane ones \(CPE4\)'),
+    (dict(plane='CAX4'), r'it has axisymmetric elements \(CAX4\) and plane ones \(COH2D4\)')])
+def test_wrongCohesiveElementsAreRefused(folder, given, sentence):
+    refusesMesh(folder, 'a.inp', glued(**given), sentence)

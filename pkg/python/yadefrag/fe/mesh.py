@@ -176,7 +176,7 @@ It is also the pair of both: `nodes, triangles = mesh`. It can be pickled.
 
 @dataclasses.dataclass
 class MeshFile:
-    """Result of readMesh: `fe.addTriangles(mesh.nodes, mesh.triangles, material=mesh.material)`.
+    """Result of readMesh: `fe.addMesh(mesh, material=mesh.material)`.
 
     nodes      (n, 2) in m, those used by triangles
     triangles  (m, 3) numbers of nodes, counter-clockwise
@@ -187,6 +187,9 @@ class MeshFile:
     instances  {name: numbers of triangles}: instances of Abaqus' parts; the set 'left' of the instance
                'P-1' is nodeSets['P-1.left']
     leftOut    list of sentences about what of the file is not in this mesh
+    joints     (k, 3): both nodes of each side with a cohesive element, and the number of its values in the arrays
+               jointStrength (Pa) and jointEnergy (J/m²)
+    axisymmetric  True: elements around an axis; False: plane stress or strain; None: unknown
     """
 
     nodes: numpy.ndarray
@@ -195,6 +198,10 @@ class MeshFile:
     nodeSets: dict
     instances: dict = dataclasses.field(default_factory=dict)
     leftOut: list = dataclasses.field(default_factory=list)
+    joints: ArrayLike = ()
+    jointStrength: ArrayLike = ()
+    jointEnergy: ArrayLike = ()
+    axisymmetric: bool | None = None
 
     @property
     def material(self) -> tuple[list[str], numpy.ndarray]:
@@ -228,7 +235,12 @@ def asMesh(mesh: Any) -> Mesh:
         nodes, triangles = parts
     except (TypeError, ValueError):
         refuse('mesh', mesh, 'a Mesh, the MeshFile of readMesh, or a pair (nodes, triangles)')
-    return Mesh(nodes, triangles)
+    made = Mesh(nodes, triangles)
+    if isinstance(mesh, MeshFile):
+        joints = numpy.array(mesh.joints, dtype=int).reshape(-1, 3)
+        made = _restored(made.nodes, made.triangles, made.loops, [], joints.astype(numpy.uint32), (0, 0.),
+                         int(joints[:, 2].max(initial=-1)) + 1)
+    return made
 
 
 def rectangleMesh(low: ArrayLike, high: ArrayLike, nx: int, ny: int, crossed: bool = False) -> Mesh:

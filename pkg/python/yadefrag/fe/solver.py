@@ -25,7 +25,7 @@ from yadefrag.fe.mesh_values import (Materials, brittlePlaces, field, heldNodes,
                                      smoothNodes, stressOfTriangles)
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.neighbours import Overlap, addSnapped, bond, bondAll, snapTolerance, tellCostly, tellJoined
-from yadefrag.messages import forget, checkedCall, noteFixed, warnOfOne
+from yadefrag.messages import forget, checkedCall, noteFixed, warn, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
 _ELEMENTS = ('linear', 'smoothed')
@@ -177,7 +177,8 @@ def addMesh(self: FESolver, mesh: Mesh | MeshFile | Sequence[ArrayLike],
             material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool | None = None, **body: Any) -> int:
     """Adds a plane body with a given mesh; returns its number (int).
 
-    mesh            a Mesh, of polygonMesh or rectangleMesh; the MeshFile of readMesh; or a pair of nodes
+    mesh            a Mesh, of polygonMesh or rectangleMesh; the MeshFile of readMesh, whose joints have
+                    the file's strength and energy if none are given, also in an FEMat; or a pair of nodes
                     (n, 2) in m and triangles (m, 3) of node numbers, counter-clockwise
     {body}
     smooth          None: as in polygonMesh; True, False: the whole boundary is C¹-smooth, or straight
@@ -187,7 +188,15 @@ def addMesh(self: FESolver, mesh: Mesh | MeshFile | Sequence[ArrayLike],
     polygonMesh's outline reduce the time step much.
     """
     smooth = None if smooth is None else flag('smooth', smooth)
-    mesh = asMesh(mesh)
+    file, mesh = mesh, asMesh(mesh)
+    if isinstance(file, MeshFile):
+        body = {'jointStrength': file.jointStrength, 'jointEnergy': file.jointEnergy, **body}
+        if file.axisymmetric not in (None, self.axisymmetric):
+            both = ('axisymmetric', 'plane')[::1 if file.axisymmetric else -1]
+            sentence = 'the elements of the mesh are %s, but fe is %s (mesh.axisymmetric = None: no check).' % both
+            if file.axisymmetric:
+                raise ValueError(sentence)
+            warn('addMesh: ' + sentence)
     component = _add(self, mesh, material, smooth=smooth, **body)
     meshing = getattr(mesh, '_meshing', None)
     if meshing:

@@ -20,7 +20,8 @@ def readMesh(file: File, scale: float = 1) -> MeshFile:
 
     file   its ending determines the format
     scale  m for one unit of the file
-    Points of three columns are accepted if z is the same for all used ones. Of elements with nodes
+    Cohesive elements of Abaqus (COH2D4, COHAX4) between two others are joints with their strength and
+    energy. Points of three columns are accepted if z is the same for all used ones. Of elements with nodes
     between their corners only the corners are used; quads are divided along their shorter diagonal;
     clockwise elements are reversed. Parts of an Abaqus file are read once for each instance, at its
     place. What is left out is listed in `leftOut`; elements which other programs show are also told in
@@ -42,6 +43,9 @@ def readMesh(file: File, scale: float = 1) -> MeshFile:
     points = scale * _plane(numpy.asarray(elements.points, dtype=float), used, name)
     triangles, source, told = _trianglesOf(elements, points, name)
     told = elements.leftOut + told + _looseLines(elements, triangles)
+    joints, laws = numpy.array(elements.joints[0], dtype=int).reshape(-1, 3), numpy.reshape(elements.joints[1], (-1, 2))
+    if len(laws) and scale != 1:
+        told.append('the units of strength and energy (N and mm: mesh.jointStrength *= 1e6; mesh.jointEnergy *= 1e3)')
     if told:
         warn('readMesh: %s: left out are %s.' % (shownPath(name), '; '.join(told)))
     corners, triangles = numpy.unique(triangles, return_inverse=True)
@@ -51,7 +55,9 @@ def readMesh(file: File, scale: float = 1) -> MeshFile:
     place[corners] = numpy.arange(len(corners))
     groups, instances = (_ofTriangles(of, source) for of in (elements.groups, elements.instances))
     sets = {key: numpy.unique(place[nodes][place[nodes] >= 0]) for key, nodes in _nodeSets(elements)}
-    return MeshFile(points[corners], triangles.reshape(-1, 3), groups, sets, instances, told)
+    joints[:, :2] = place[joints[:, :2]]
+    return MeshFile(points[corners], triangles.reshape(-1, 3), groups, sets, instances, told, joints,
+                    laws[:, 0], laws[:, 1], elements.axisymmetric)
 
 
 def _plane(points, used, name):

@@ -12,7 +12,7 @@ import collections
 import dataclasses
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from types import ModuleType
 from typing import NoReturn
 
@@ -82,6 +82,7 @@ class Elements:
     nodeSets   {name: numbers of points}
     instances  {name: places of elements}
     leftOut    sentences about what was left out
+    joints     as in MeshFile, numbers of points, and [(strength, energy)] in units of the file
     """
 
     points: numpy.ndarray
@@ -92,6 +93,8 @@ class Elements:
     nodeSets: dict = dataclasses.field(default_factory=dict)
     instances: dict = dataclasses.field(default_factory=dict)
     leftOut: list = dataclasses.field(default_factory=list)
+    joints: Sequence = ((), ())
+    axisymmetric: bool | None = None
 
 
 def cornersOf(kind: str) -> int:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections import Counter
 from collections.abc import Iterable
 
 import numpy
@@ -19,6 +20,7 @@ _KINDS = {3: 'triangle3', 4: 'quad4', 6: 'triangle6', 8: 'quad8', 9: 'quad9'}
 _LINES = re.compile(r'[TB]\d|R2D2|[RMS]AX|PIPE|ELBOW|FRAME|CONN|SPRING|DASHPOT|GAP|IT|JOINT|DCOUP|MASS|'
                     r'ROTARY|HEATCAP|DC{0,2}1D|AC1D|F(2D|AX)2|D$')
 _JOINTS = re.compile(r'COH(2D|AX)|GK(2D|P[SE]|AX)')  # cohesive elements and gaskets in the plane: no area of their own
+_COHESIVE = re.compile(r'COH(2D|AX)4$')  # those that may be joints here
 _ENDLESS = re.compile(r'CIN(P[SE]|AX)|ACIN(2D|AX)')  # they go on from the boundary to infinity
 _CHANGES = ('NGEN', 'NFILL', 'NCOPY', 'NMAP', 'ELGEN', 'ELCOPY', 'SYSTEM', 'PARAMETER')
 
@@ -32,6 +34,7 @@ class Part:
         self.nodes: dict = dict(part.nodes) if part else {}  # {number: [x, y, z]}
         self.elements: dict = dict(part.elements) if part else {}  # {number: (type, numbers of nodes)}
         self.sets = {'NSET': {}, 'ELSET': {}}  # {NAME: (name, [(part or instance, number)])}
+        self.sections: list = list(part.sections) if part else []  # cohesive: (ELSET, options)
         self.moves = []  # up to two rows: a translation; two points of an axis and an angle (degrees)
         for kind, sets in part.sets.items() if part else ():
             for name, members in sets.values():
@@ -53,7 +56,7 @@ def nodesOf(type: str) -> int:
     return int(found[1]) if found else 0
 
 
-def placed(instances: list[Part], assembly: Part, leftOut: list[str]) -> Elements:
+def placed(instances: list[Part], assembly: Part, materials: dict, leftOut: list[str]) -> Elements:
     """Elements of all instances, and the sets of these and of the assembly."""
     points, labels, corners, types = [], [], [], {}
     where = {'NSET': {}, 'ELSET': {}}  # {(instance, number in the file): number from 0}
@@ -61,6 +64,9 @@ def placed(instances: list[Part], assembly: Part, leftOut: list[str]) -> Element
         points += _moved(list(one.nodes.values()), one.moves)
         for number in one.nodes:
             where['NSET'][one, number] = len(where['NSET'])
+    points, new, *joints = _joined(instances, where['NSET'], points, materials, leftOut)
+    where['NSET'] = dict(zip(where['NSET'], new.tolist()))
+    for one in instances:
         for number, (type, its) in one.elements.items():
             labels.append('%s.%d' % (one.name, number) if one.name else '%d' % number)
             its = its if nodesOf(type) else [node for node in its if node in one.nodes]
@@ -75,8 +81,56 @@ def placed(instances: list[Part], assembly: Part, leftOut: list[str]) -> Element
     for name, numbers in ofElements.items():
         nodeSets.setdefault(name, [point for number in numbers for point in corners[number]])
     copies = {one.name: [where['ELSET'][one, number] for number in one.elements] for one in instances if one.name}
-    return Elements(numpy.array(points, dtype=float).reshape(-1, 3), _blocks(types, corners, leftOut), labels, groups,
-                    nodeSets=nodeSets, instances=copies, leftOut=leftOut)
+    around, plane = ([one for one in types if re.match(kind, one)] for kind in ('(CG?|AC|DCC?|COH)AX', 'CP[SE]|COH2D'))
+    if around and plane:
+        raise ValueError('it has axisymmetric elements (%s) and plane ones (%s)' % (around[0], plane[0]))
+    return Elements(points, _blocks(types, corners, leftOut), labels, groups, nodeSets=nodeSets, instances=copies,
+                    leftOut=leftOut, joints=joints, axisymmetric=bool(around) if around or plane else None)
+
+
+def _joined(instances, where, places, materials, leftOut):
+    """Cohesive elements as joints, the nodes of both sides as one point in their middle: (points, the number of each
+    given one among them, [(both points, number of the law)], [(strength, energy)] of the laws)."""
+    points, sides, left, laws = numpy.array(places, dtype=float).reshape(-1, 3), [], Counter(), {}
+    for one in instances:
+        sections = {number: options for name, options in one.sections
+                    for owner, number in one.sets['ELSET'].get(name, ('', ()))[1] if owner is one}
+        cohesive = {number: of for number, of in one.elements.items() if _COHESIVE.match(of[0])}
+        corners = [its[:3 if nodesOf(type) in (3, 6) else 4] for type, its in one.elements.values()
+                   if cohesive and nodesOf(type)]
+        plane = {frozenset(side) for its in corners for side in zip(its, its[1:] + its[:1])}
+        for number, (type, its) in cohesive.items():
+            nodes = next((nodes for nodes in (its, its[1:] + its[:1])
+                          if len({frozenset(nodes[:2]), frozenset(nodes[2:])} & plane) == 2), ())
+            law = _lawOf(sections.get(number, {}), materials) if nodes else 'without a triangle or quad on each side'
+            if isinstance(law, str):
+                left['', '%s %s, which connect parts that are separate here' % (type, law)] += 1
+                continue
+            a, b, c, d = (where[one, node] for node in nodes)
+            if (points[b] - points[a]) @ (points[c] - points[d]) <= 0:
+                raise ValueError('element %d (%s) has its nodes in a wrong order: its sides cross' % (number, type))
+            left['stiffness, thickness, softening and ratios in shear of ', type + ', which are joints by addMesh'] += 1
+            sides.append((a, d, b, c, laws.setdefault(law, len(laws))))
+    leftOut += ['%s%s of the type %s' % (head, counted(count, 'element'), what) for (head, what), count in left.items()]
+    both, label = numpy.reshape([side[:4] for side in sides], (-1, 2)).astype(int), numpy.arange(len(points))
+    while (label[both[:, 0]] != label[both[:, 1]]).any():
+        numpy.minimum.at(label, both, label[both].min(axis=1, keepdims=True))
+    kept, new = numpy.unique(label, return_inverse=True)
+    moves = [numpy.bincount(new, way) / numpy.bincount(new) for way in (points - points[label]).T]
+    return points[kept] + numpy.transpose(moves), new, [(new[a], new[b], law) for a, _, b, _, law in sides], [*laws]
+
+
+def _lawOf(options, materials):
+    """(strength, energy), or the reason for which elements of this section are no joints."""
+    name = options.get('MATERIAL', '')
+    (start, strengths), (end, energies) = (materials.get((name.upper(), word), ({}, ()))
+                                           for word in ('DAMAGE INITIATION', 'DAMAGE EVOLUTION'))
+    if options.get('RESPONSE', '').upper().split() != ['TRACTION', 'SEPARATION']:
+        return 'in no *COHESIVE SECTION of the response TRACTION SEPARATION'
+    values = tuple(float(row[0] or 0) for row in (*strengths, *energies))
+    isOne = start.get('CRITERION', '').upper() in ('MAXS', 'QUADS') and end.get('TYPE', '').upper() == 'ENERGY' \
+        and len(strengths) == len(energies) == 1 and all(0 < one < math.inf for one in values)
+    return values if isOne else "of the material '%s' without one strength (MAXS, QUADS) and one energy above 0" % name
 
 
 def _sets(kind, owners, where, isEach):
@@ -114,14 +168,12 @@ def _moved(points, moves):
 
 def _blocks(types, corners, leftOut):
     blocks = []
-    for type, numbers in types.items():
+    for type, numbers in ((type, of) for type, of in types.items() if not _COHESIVE.match(type)):
         isJoint = _JOINTS.match(type)
         if isJoint or not nodesOf(type) and (_LINES.match(type) or _ENDLESS.match(type)):
             leftOut.append('%s of the type %s%s' % (counted(len(numbers), 'element'), type, isJoint and
                                                     ', which connect parts that are separate here' or ''))
             continue
-        if 'AX' in type[:5]:
-            leftOut.append('the axis of revolution of %s of the type %s' % (counted(len(numbers), 'element'), type))
         kind = _KINDS.get(nodesOf(type), type)
         blocks.append((kind, numpy.array([corners[n] for n in numbers]) if kind != type else (), numbers))
     return blocks
@@ -178,7 +230,7 @@ class _Reader:
         self.flat = Part('')
         self.parts, self.instances, self.assembly = {}, {}, Part('')
         self.scope = self.around = self.flat
-        self.leftOut = []
+        self.leftOut, self.material, self.materials = [], '', {}  # {(NAME, keyword): (options, rows)}
 
     def take(self, keyword, options, rows):
         if keyword == 'PART':
@@ -197,6 +249,12 @@ class _Reader:
             self._addElements(options, rows)
         elif keyword in ('NSET', 'ELSET'):
             self._addSet(keyword, options, rows)
+        elif keyword == 'COHESIVE SECTION':
+            self.scope.sections.append((_needed(options, 'ELSET').upper(), options))
+        elif keyword in ('MATERIAL', 'SURFACE INTERACTION'):
+            self.material = _needed(options, 'NAME').upper() if keyword == 'MATERIAL' else ''
+        elif keyword in ('DAMAGE INITIATION', 'DAMAGE EVOLUTION'):
+            self.materials[self.material, keyword] = options, rows
         elif keyword in _CHANGES and (rows or keyword != 'SYSTEM'):
             raise ValueError('the keyword *%s, which makes or moves nodes or elements, is not known here: '
                              'write the file without it' % keyword)
@@ -291,7 +349,7 @@ class _Reader:
                                     (part.name, counted(len(part.elements), 'element')))
         if not used:
             used = [Part(part.name, part) for part in self.parts.values()]
-        return placed([Part('', self.flat), *used], self.assembly, self.leftOut)
+        return placed([Part('', self.flat), *used], self.assembly, self.materials, self.leftOut)
 
 
 def _needed(options, name):
