@@ -53,7 +53,8 @@ class Fracture {
   /// Reserves memory for cracks, so that the first ones need no allocation.
   void prepare(Model& model);
   /// Cracks all edges that have reached their strength at the present positions, and splits nodes.
-  /// With a rate effect these edges get the strength and the energy of their strain rate.
+  /// With a rate effect these edges get the strength and the energy of their strain rate, with a
+  /// speed effect the energy of the crack's speed.
   /// Returns true if `result` contains changes that other arrays must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
              const StepTime& step, SplitResult& result, int threads);
@@ -92,6 +93,8 @@ class Fracture {
   Cohesion cohesion;
 
  private:
+  void raiseEnergies(const Model& model, double now);
+
   StrengthCheck check_;
   std::vector<EdgeId> cracks_, weakened_;
   std::uint64_t numCracks_ = 0;

@@ -48,6 +48,8 @@ struct BrittleMaterial {
   /// Factor of the strength by the strain rate with which an edge cracks; it keeps that strength.
   RateEffect rate{};
   double rateEnergyPower = 1;  ///< p: Gc is multiplied by that factor to the power of p
+  /// Factor of Gc by the speed of the crack when it reaches an edge; the edge keeps that energy.
+  RateEffect speed{};
 
   [[nodiscard]] bool cracks() const { return tensileStrength > 0; }
 };

@@ -18,32 +18,35 @@ constexpr std::array<std::string_view, 2> kNames = {"none", "ceb-fip-2010"};
 constexpr double kMostFactor = 1000;
 
 /// What is wrong with the points; empty if nothing is.
-std::string faultOf(std::span<const RatePoint> points) {
+std::string faultOf(std::span<const RatePoint> points, const RateWords& words) {
   if (points.empty()) return {};
   if (points.size() == 1) return "has one point; it must have at least two";
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [rate, factor] = points[i];
     if (!(rate > 0 && std::isfinite(rate)))
-      return fmt::format("has the strain rate {:.4g} 1/s; rates must be positive and finite", rate);
+      return fmt::format("has the {} {:.4g} {}; these must be positive and finite", words.quantity,
+                         rate, words.unit);
     if (i > 0 && !(rate > points[i - 1].rate))
-      return fmt::format("has the strain rate {:.4g} 1/s after {:.4g} 1/s; rates must increase",
-                         rate, points[i - 1].rate);
+      return fmt::format("has the {} {:.4g} {} after {:.4g} {}; these must increase",
+                         words.quantity, rate, words.unit, points[i - 1].rate, words.unit);
     if (!(factor >= 1 && factor <= kMostFactor))
-      return fmt::format(
-          "has the factor {:.4g}; factors must be from 1, the strength of a slow test, to {:.4g}",
-          factor, kMostFactor);
+      return fmt::format("has the factor {:.4g}; factors must be from 1, {}, to {:.4g}", factor,
+                         words.slow, kMostFactor);
   }
   return {};
 }
 
 }  // namespace
 
-RateEffect::RateEffect(std::vector<RatePoint> points) : points_(std::move(points)) {
-  const std::string fault = faultOf(points_);
-  if (!fault.empty()) throw InputError(fmt::format("rateEffect {}.", fault));
+RateEffect::RateEffect(std::vector<RatePoint> points, const RateWords& words)
+    : points_(std::move(points)) {
+  const std::string fault = faultOf(points_, words);
+  if (!fault.empty()) throw InputError(fmt::format("{} {}.", words.attribute, fault));
 }
 
-bool RateEffect::isValid(std::span<const RatePoint> points) { return faultOf(points).empty(); }
+bool RateEffect::isValid(std::span<const RatePoint> points) {
+  return faultOf(points, kStrainRate).empty();
+}
 
 double RateEffect::factor(double rate) const {
   if (points_.empty()) return 1;

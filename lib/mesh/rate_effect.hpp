@@ -1,5 +1,6 @@
 #pragma once
-// How the strength of a material increases with the strain rate.
+// How the strength of a material increases with the strain rate, and the energy of its cracks with
+// their speed.
 
 #include <span>
 #include <string_view>
@@ -8,10 +9,18 @@
 namespace yadefrag {
 
 struct RatePoint {
-  double rate;    ///< 1/s, strain rate
-  double factor;  ///< strength over that of a slow test
+  double rate;    ///< 1/s, strain rate; or m/s, speed of the crack
+  double factor;  ///< of the strength in a slow test, or of the energy of a slow crack
   friend bool operator==(const RatePoint&, const RatePoint&) = default;
 };
+
+/// Words of messages.
+struct RateWords {
+  const char *attribute, *quantity, *unit, *slow;
+};
+inline constexpr RateWords kStrainRate{"rateEffect", "strain rate", "1/s",
+                                       "the strength of a slow test"};
+inline constexpr RateWords kCrackSpeed{"speedEffect", "speed", "m/s", "the energy of a slow crack"};
 
 /// A polygon through points in the logarithms of rate and factor, since laws of this kind are
 /// powers: lines there. Below the first point and above the last one the factor is constant.
@@ -21,13 +30,12 @@ class RateEffect {
   RateEffect() = default;
   /// At least two points, or none; rates are positive and increase, factors are from 1 to 1000.
   /// Throws InputError otherwise.
-  explicit RateEffect(std::vector<RatePoint> points);
+  explicit RateEffect(std::vector<RatePoint> points, const RateWords& words = kStrainRate);
 
   [[nodiscard]] static bool isValid(std::span<const RatePoint> points);
 
   [[nodiscard]] const std::vector<RatePoint>& points() const { return points_; }
   [[nodiscard]] bool isOn() const { return !points_.empty(); }
-  /// Strength at this strain rate (1/s) over that of a slow test.
   [[nodiscard]] double factor(double rate) const;
   [[nodiscard]] double least() const;    ///< factor
   [[nodiscard]] double largest() const;  ///< factor

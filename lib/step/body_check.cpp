@@ -115,10 +115,13 @@ const BodyMaterial& materialOf(const BodySpec& spec, std::size_t triangle) {
 
 void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
   const BrittlePlaces& places = spec.places;
-  if (!places.empty() && !wholeOf(spec).brittle.cracks())
+  BodySpec apart = {};  // an elastic body cracks along joints
+  static_cast<BodyMaterial&>(apart) = spec, apart.materials = spec.materials;
+  if (!(places.strength.empty() && places.fractureEnergy.empty()) &&
+      !wholeOf(apart).brittle.cracks())
     throw InputError(
-        "strength, fractureEnergy and joints are given, but the material neither cracks nor fails; "
-        "it must be a BrittleFEMat, or a PlasticFEMat with a failure strain or a spall stress.");
+        "strength or fractureEnergy is given, but the material neither cracks nor fails; it must "
+        "be a BrittleFEMat, or a PlasticFEMat with a failure strain or a spall stress.");
   if (spec.plastic.yields() && !places.joints.empty())
     throw InputError("joints are given, but the material yields; it must be a BrittleFEMat.");
   if (spec.plastic.isFrictional() && !places.strength.empty())

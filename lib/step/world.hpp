@@ -42,6 +42,9 @@ struct BodySpec : BodyMaterial {
   if (!spec.materials.empty()) return boundOf(spec.materials, spec.places);
   BodyMaterial one = spec;
   if (one.plastic.fails()) one.brittle = untilFailure(one.plastic.failure);
+  // An elastic body cracks along its joints only.
+  if (!one.brittle.cracks() && !spec.places.joints.empty())
+    one.brittle.tensileStrength = kUnbreakable;
   return one;
 }
 

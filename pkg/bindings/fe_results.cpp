@@ -205,12 +205,12 @@ py::dict energyOf(const FESolver& solver) {
 
 /// (J) Energy that the time integration has created, the largest energy that the bodies could have,
 /// and the energy of rounding errors.
-py::tuple energyBalanceOf(const FESolver& solver) {
+py::object energyBalanceOf(const FESolver& solver) {
   const World& world = solver.world();
   const double total =
       world.ledger.total(world.kineticEnergy(), world.strainEnergy()) + world.pendingPlastic();
   const double excess = world.steps > 0 ? total - world.watch.expected : 0;
-  return py::make_tuple(excess, world.watch.most, world.roundingEnergy());
+  return record("excess", excess, "most", world.watch.most, "rounding", world.roundingEnergy());
 }
 
 py::list warningsOf(const FESolver& solver) {

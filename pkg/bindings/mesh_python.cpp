@@ -160,15 +160,16 @@ const char* nameOf(Section::Kind kind) {
   return kind == Section::Kind::kLine ? "line" : "wall";
 }
 
-/// Sections of all bodies of the present scene that intersect the plane z = 0: tuples (id, kind,
-/// points), with kind 'outline', 'line' or 'wall' and points as in Section, pairs (m).
+/// Sections of all bodies of the present scene that intersect the plane z = 0: records of id, kind,
+/// points, with kind 'outline', 'line' or 'wall' and points as in Section, pairs (m).
 py::list sectionsOfScene() {
   py::list found;
   for (const auto& body : yade::Omega::instance().getScene()->bodies->body) {
     if (!body || !body->shape || !body->state || !mayHaveSection(*body)) continue;
     const std::optional<Section> section = sectionOf(*body);
     if (!section) continue;
-    found.append(py::make_tuple(body->id, nameOf(section->kind), pairsOf(section->points)));
+    found.append(record("body", body->id, "kind", nameOf(section->kind), "points",
+                        pairsOf(section->points)));
   }
   return found;
 }

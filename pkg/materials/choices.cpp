@@ -115,6 +115,18 @@ RateEffect RateChoice::law() const {
   return RateEffect(pointsOf<RatePoint>(table));
 }
 
+RateEffect SpeedChoice::named(std::string_view name) {
+  if (name == "none") return {};
+  throw InputError("speedEffect is '" + std::string(name) +
+                   "'; it must be 'none', or a list of points (speed of the crack, factor).");
+}
+
+RateEffect SpeedChoice::law() const {
+  if (!name.empty()) return named(name);
+  if (table.empty()) throw InputError("speedEffect has no points; it must have at least two.");
+  return RateEffect(pointsOf<RatePoint>(table), kCrackSpeed);
+}
+
 HardeningChoice::Table HardeningChoice::named(std::string_view name) {
   if (name == "none") return {};
   throw InputError("hardeningTable is '" + std::string(name) +
@@ -141,6 +153,7 @@ ToleranceChoice ToleranceChoice::named(const std::string& name) {
 
 template const ValueKind& kindOf<SofteningChoice>();
 template const ValueKind& kindOf<RateChoice>();
+template const ValueKind& kindOf<SpeedChoice>();
 template const ValueKind& kindOf<HardeningChoice>();
 template const ValueKind& kindOf<ToleranceChoice>();
 
@@ -156,8 +169,8 @@ void convert() {
 }  // namespace
 
 void convertChoices() {
-  convert<SofteningChoice>(), convert<RateChoice>(), convert<HardeningChoice>();
-  convert<ToleranceChoice>();
+  convert<SofteningChoice>(), convert<RateChoice>(), convert<SpeedChoice>();
+  convert<HardeningChoice>(), convert<ToleranceChoice>();
 }
 
 }  // namespace yadefrag

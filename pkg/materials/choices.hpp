@@ -1,6 +1,7 @@
 #pragma once
-// Attributes that are given by a name, or by their values: BrittleFEMat.softening and rateEffect
-// and PlasticFEMat.hardeningTable by a list of points, FESolver.contactTolerance by a number.
+// Attributes that are given by a name, or by their values: BrittleFEMat.softening, rateEffect and
+// speedEffect and PlasticFEMat.hardeningTable by a list of points, FESolver.contactTolerance by a
+// number.
 
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/string.hpp>
@@ -46,6 +47,16 @@ struct RateChoice : LawChoice {
 
   RateChoice() : LawChoice{"none", {}} {}
   [[nodiscard]] static RateEffect named(std::string_view name) { return rateEffectNamed(name); }
+  /// Throws InputError for an unknown name or invalid points.
+  [[nodiscard]] RateEffect law() const;
+};
+
+struct SpeedChoice : LawChoice {
+  static constexpr const char* kAttribute = "speedEffect";
+  static constexpr const char* kPoints = "speed of the crack in m/s, factor of the energy";
+
+  SpeedChoice() : LawChoice{"none", {}} {}
+  [[nodiscard]] static RateEffect named(std::string_view name);
   /// Throws InputError for an unknown name or invalid points.
   [[nodiscard]] RateEffect law() const;
 };

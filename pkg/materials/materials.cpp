@@ -59,7 +59,16 @@ Attributes curvesOfCracks() {
           "multiplies the strength that an edge has by tensileStrength, strength, jointStrength, "
           "scatter and coarseMesh, and so the cohesion shearFactor*tensileStrength, but not the "
           "friction. An edge between two materials has the effect of the weaker one, bonds have "
-          "none. A crack keeps its factor."));
+          "none. A crack keeps its factor."),
+      attribute(
+          "speedEffect", &C::speedEffect,
+          "By which factor the energy of a crack increases with its speed when it reaches an edge: "
+          "the way from the edge from which it came, over the time between the starts of both. "
+          "'none': 1. Or a list of points (speed in m/s, factor), speeds increasing, factors at "
+          "least 1; between them log(factor) is linear in log(speed), outside the factor is that "
+          "of the nearest point. It multiplies the energy that an edge has by fractureEnergy, "
+          "jointEnergy, coarseMesh and rateEffect; bonds have none. An edge keeps its energy, "
+          "which crackTable lists. Cracks then slow down as in tests (see the manual, Fracture)."));
 }
 
 Attributes failureScatter() {
@@ -162,6 +171,7 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
   if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material)) {
     one.brittle.softening = brittle->softening.law();
     one.brittle.rate = brittle->rateEffect.law();
+    one.brittle.speed = brittle->speedEffect.law();
     checkBrittle(one.brittle);
     return one;
   }

@@ -38,6 +38,7 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   SofteningChoice softening;
   std::string coarseMesh = "warn";
   RateChoice rateEffect;
+  SpeedChoice speedEffect;
 
   static Attributes attributes();
   static void pyExtra(const yade::py::object& /*pyClass*/) { convertChoices(); }

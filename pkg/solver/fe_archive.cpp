@@ -37,7 +37,7 @@ class WorldArchive : ColumnArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 23;
+  static constexpr std::uint64_t kFormat = 24;
 
   void all(World& world, std::vector<int>& entryBodies, std::vector<Vec2>& forces) {
     std::uint64_t format = kFormat;
@@ -149,6 +149,7 @@ class WorldArchive : ColumnArchive {
     curves("softeningCounts", "softeningPoints", rows,
            [](C& c) -> SofteningCurve& { return c.brittle.softening; });
     curves("rateCounts", "ratePoints", rows, [](C& c) -> RateEffect& { return c.brittle.rate; });
+    curves("speedCounts", "speedPoints", rows, [](C& c) -> RateEffect& { return c.brittle.speed; });
     const auto plastic = [](C& c) -> PlasticMaterial& { return c.plastic; };
     constants(metalConstants(), plastic), constants(coneConstants(), plastic);
     constants(failureConstants(), [](C& c) -> FailureLaw& { return c.plastic.failure; });

@@ -82,6 +82,53 @@ TEST(RateEffect, RefusesPointsThatAreNoFactors) {
   EXPECT_THROW((void)rateEffectNamed("ceb"), InputError);
 }
 
+// An elastic plate cracks along a line, which its halves open from the left. Each energy is that of
+// the way between the middles of edges over the time between their starts, from the neighbour that
+// has cracked first; found here by the nodes.
+TEST(SpeedEffect, AnEdgeGetsTheEnergyOfTheSpeedFromItsFirstNeighbour) {
+  constexpr double kLong = .02, kMiddle = .005;  // m
+  const RateEffect effect({{100, 1}, {1e4, 9}}, kCrackSpeed);
+  const JointLines line{{Vec2{0, kMiddle}, Vec2{kLong, kMiddle}}};
+  const TriangleMesh mesh = triangulate(rectangle({0, 0}, {kLong, 2 * kMiddle}), .001,
+                                        {NodeLayout::kScattered, 1}, INFINITY, line);
+  BodySpec spec;
+  spec.material = {30e9, .2, 2400, true};
+  spec.brittle.speed = effect;
+  for (const auto& [a, b, joint] : mesh.joints) spec.places.joints.push_back({{a, b}, 3e6, 100});
+  for (const Vec2 at : mesh.nodes)
+    spec.velocity.push_back({0, 300 * (at.y - kMiddle) * (1 - at.x / kLong)});
+  World world;
+  world.addBody(mesh, spec);
+  const CrackEdges& edges = world.fracture.edges;
+  std::vector<std::array<NodeId, 2>> ends;  // before nodes split
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Side side = edges.side(EdgeId(i), 0);
+    ends.push_back({firstNode(world.model, side), lastNode(world.model, side)});
+  }
+  const std::vector<Vec2> places = world.model.nodes.reference;
+  stepFor(world, .2, 2000);
+  const auto middle = [&](std::size_t i) {
+    return .5 * (places[ends[i][0].value] + places[ends[i][1].value]);
+  };
+  const std::vector<double>& started = world.fracture.started;
+  int first = 0, later = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges.cracked[i] == 0) continue;
+    double since = started[i], speed = 0;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const bool isBeside = ends[k][0] == ends[i][0] || ends[k][0] == ends[i][1] ||
+                            ends[k][1] == ends[i][0] || ends[k][1] == ends[i][1];
+      if (!isBeside || edges.cracked[k] == 0 || started[k] >= since) continue;
+      since = started[k], speed = norm(middle(i) - middle(k)) / (started[i] - since);
+    }
+    ++(speed == 0 ? first : later);
+    EXPECT_NEAR(edges.fractureEnergy[i] / (100 * effect.factor(speed)), 1, 1e-9);
+  }
+  EXPECT_GE(first, 1);
+  EXPECT_GT(later, 10);
+  EXPECT_EQ(world.fracture.numCracks(), static_cast<std::uint64_t>(first + later));
+}
+
 // The direction is that of the largest principal stress, not that of the largest rate.
 TEST(RateEffect, TheRateIsThatOfTheDirectionOfTheStress) {
   EXPECT_DOUBLE_EQ(strainRateAlong({5, 1, 0}, {2, -3, 7}), 2);

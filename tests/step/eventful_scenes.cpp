@@ -226,6 +226,7 @@ std::map<std::string, Scene> scenes() {
     return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh&) {
       shatter(spec, k == 1 ? 2000 : 0);
       spec.brittle.rate = rateEffectNamed("ceb-fip-2010");
+      spec.brittle.speed = RateEffect({{100, 1}, {1000, 2}}, kCrackSpeed);
     });
   };
   all["stressed"] = [] {

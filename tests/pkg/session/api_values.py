@@ -100,7 +100,7 @@ def loads(fe):
 
 def attribute(cls, name, value):
     """Groups of an attribute: of its preset, and of points where these are accepted."""
-    points = dict(softening=[(0, 1), (.5, .25), (1, 0)], rateEffect=[(1, 1), (100, 2)], hardeningTable=[(0, 1e6), (.125, 2e6)])
+    points = dict(softening=[(0, 1), (.5, .25), (1, 0)], rateEffect=[(1, 1), (100, 2)], speedEffect=[(1, 1), (100, 2)], hardeningTable=[(0, 1e6), (.125, 2e6)])
     if isinstance(value, bool):
         return [F(value)]
     if isinstance(value, int):

@@ -112,10 +112,14 @@ CURVES = [
         ('ceb', "^rateEffect is 'ceb'; it must be one of 'none', 'ceb-fip-2010', or points"),
         ('', "^rateEffect is ''; it must be one of"), ([], '^rateEffect has no points; it must have at least two'),
         ([(1, 1)], '^rateEffect has one point; it must have at least two'),
-        ([(1, 1), (.5, 2)], '^rateEffect has the strain rate 0.5 1/s after 1 1/s; rates must increase'),
+        ([(1, 1), (.5, 2)], '^rateEffect has the strain rate 0.5 1/s after 1 1/s; these must increase'),
         ([(1, 1), (2, .5)], '^rateEffect has the factor 0.5; factors must be from 1, the strength of a slow test, to 1000'),
-        ([(-1, 1), (2, 2)], '^rateEffect has the strain rate -1 1/s; rates must be positive'),
-        ([(1, 1), (NAN, 2)], 'rates must be positive and finite'), ([(1, 1), (2, NAN)], '^rateEffect has the factor nan')]),
+        ([(-1, 1), (2, 2)], '^rateEffect has the strain rate -1 1/s; these must be positive'),
+        ([(1, 1), (NAN, 2)], 'these must be positive and finite'), ([(1, 1), (2, NAN)], '^rateEffect has the factor nan')]),
+    ('speedEffect', w.BrittleFEMat, ValueError, [
+        ('glass', "^speedEffect is 'glass'; it must be 'none', or a list of points"), ([], '^speedEffect has no points'),
+        ([(2, 1), (1, 2)], '^speedEffect has the speed 1 m/s after 2 m/s; these must increase'),
+        ([(1, .5), (2, 2)], '^speedEffect has the factor 0.5; factors must be from 1, the energy of a slow crack, to 1000')]),
     ('rateEffect', w.BrittleFEMat, TypeError, [
         (3, 'rateEffect is 3, %s .strain rate in 1/s, factor' % NAME_OR_POINTS),
         (None, '^BrittleFEMat.rateEffect is None, it must be a name'),

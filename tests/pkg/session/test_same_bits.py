@@ -149,7 +149,7 @@ kScenes = {
     'cohesion': (brittle(fractureEnergy=500), 250, lambda fe: fe.numCracks > 5),
     'petersson': (brittle(fractureEnergy=500, softening='petersson'), 250, lambda fe: fe.numCracks > 5),
     'table': (brittle(fractureEnergy=500, softening=kTable), 250, lambda fe: fe.numCracks > 5),
-    'rate': (brittle(fractureEnergy=500, rateEffect='ceb-fip-2010', rateEnergyPower=.5), 400,
+    'rate': (brittle(fractureEnergy=500, rateEffect='ceb-fip-2010', rateEnergyPower=.5, speedEffect=[(100, 1), (1000, 2)]), 400,
              lambda fe: fe.numCracks > 5),
     'dropped': (dropped, 150, lambda fe: fe.dropped['count'] > 0),
     'bonded': (bonded, 40, lambda fe: fe.energy['fracture'] > 0),

@@ -2,6 +2,7 @@
 import importlib
 import os
 import random
+import types
 from pathlib import Path
 
 import numpy as np
@@ -89,17 +90,20 @@ def test_energyOutOfNothingIsABlowUp():
     from yadefrag.studies import run_in_yade
 
     class FESolver:
-        _energyBalance = 0., 1., 0.
+        pass
 
     class Scene:
         engines, bodies, dt = [FESolver()], [], 1
 
-    for balance in ((.9, 1., 0.), (6e-20, 0., 1e-18)):
-        FESolver._energyBalance = balance
+    def balance(values):
+        return types.SimpleNamespace(**dict(zip(('excess', 'most', 'rounding'), values)))
+
+    for values in ((.9, 1., 0.), (6e-20, 0., 1e-18)):
+        FESolver._energyBalance = balance(values)
         run_in_yade.requireSane(Scene)
-    for balance, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
-                              ((1e-3, 0., 1e-18), 'the bodies had 0 J')):
-        FESolver._energyBalance = balance
+    for values, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
+                             ((1e-3, 0., 1e-18), 'the bodies had 0 J')):
+        FESolver._energyBalance = balance(values)
         with pytest.raises(run_in_yade.BlewUp, match=sentence):
             run_in_yade.requireSane(Scene)
 

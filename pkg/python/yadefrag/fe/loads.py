@@ -172,7 +172,7 @@ def _damped(fe, tolerance, most):
         speeds, ofBodies = _velocitiesAndEnergy(_freeBodies())
         kinetic, elastic = energy['kinetic'] + ofBodies, energy['strain'] + _contactEnergy()
         ratio = kinetic / elastic if elastic > 0 else math.inf
-        isRounding = kinetic <= fe._energyBalance[2]  # nothing else without loads
+        isRounding = kinetic <= fe._energyBalance.rounding  # nothing else without loads
         calm = calm + 1 if (ratio <= tolerance or isRounding) and not _anyFalls(former, speeds, part) else 0
         fe.damping, part = _critical(fe)
         done += part

@@ -209,8 +209,6 @@ class Materials:
         self.numbers = numpy.empty(0, dtype=numpy.uint32)
         if not isField(material):
             self._number(material, 'material', _SEVERAL)
-            if mesh._numJoints and not (mesh._loopVertices or self.yields or self.crack):  # of a file: two equal ones
-                self.of, self.numbers = 2 * self.of, numpy.zeros(len(mesh.triangles), dtype=numpy.uint32)
             return
         numbers = numpy.array(self._ofTriangles(mesh, material), dtype=numpy.uint32)
         if len(self.of) > 1:

@@ -99,9 +99,9 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocit
                     a factor of its failure strain and spallStress
     fractureEnergy  None: that of the material; or a function (x, y) → J/m², or an array,
                     likewise; where it is 0, cracks open at once
-    jointStrength   Pa, for all joints or one for each, of a BrittleFEMat, without scatter; 0: open
-                    from the start, an existing crack, not counted by numCracks; None: that of the
-                    adjacent triangles; the joint then only shapes the mesh
+    jointStrength   Pa, for all joints or one for each, without scatter; 0: open from the start, an
+                    existing crack, not counted by numCracks; None: that of the adjacent triangles;
+                    the joint then only shapes the mesh. An FEMat cracks at its joints only
     jointEnergy     J/m², likewise; None: that of the adjacent triangles
     interfaceStrength  Pa, of edges between two materials, without scatter: a number, a function
                     (x, y) called at their middles, or a dict {(material, material): number}; 0:

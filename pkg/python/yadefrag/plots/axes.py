@@ -162,8 +162,8 @@ class YadeBodies:
         sections = _yadefrag.sectionsOfScene() if rigidBodies else ()
         self.outlines, self.lines, self.walls = [], [], []
         self._colours = {'outline': [], 'line': [], 'wall': []}
-        for number, kind, points in sections:
-            points = numpy.array(points)
+        for section in sections:
+            kind, points = section.kind, numpy.array(section.points)
             if not numpy.isfinite(points).all():
                 continue
             if kind == 'wall':
@@ -171,7 +171,7 @@ class YadeBodies:
                 self.walls.append((axis, points[0, axis]))
             else:
                 (self.outlines if kind == 'outline' else self.lines).append(points)
-            colour = wrapper.Omega().bodies[number].shape.color
+            colour = wrapper.Omega().bodies[section.body].shape.color
             self._colours[kind].append(numpy.clip(colour, 0, 1))
 
     def _takeSpheres(self, bodies):

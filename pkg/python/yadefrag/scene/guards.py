@@ -19,6 +19,7 @@ _LISTS = (list, tuple, numpy.ndarray)
 _RIGHT = {'contactTolerance': "'fine', 'default', 'coarse' or a number",
           'softening': 'a name, or a list of points (opening over critical opening, traction over strength)',
           'rateEffect': 'a name, or a list of points (strain rate in 1/s, factor of the strength)',
+          'speedEffect': "'none', or a list of points (speed of the crack in m/s, factor of the energy)",
           'hardeningTable': "'none', or a list of points (plastic strain, yield stress in Pa)"}
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 

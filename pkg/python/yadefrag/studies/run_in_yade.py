@@ -50,11 +50,12 @@ def requireSane(omega: Omega) -> None:
     for fe in omega.engines:
         if type(fe).__name__ != 'FESolver':
             continue
-        excess, most, rounding = fe._energyBalance
-        if not math.isfinite(excess):
-            raise BlewUp('the energy is %r J.' % excess)
-        if excess > max(most, rounding):
-            raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.' % (excess, most))
+        energy = fe._energyBalance
+        if not math.isfinite(energy.excess):
+            raise BlewUp('the energy is %r J.' % energy.excess)
+        if energy.excess > max(energy.most, energy.rounding):
+            raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.'
+                         % (energy.excess, energy.most))
     for body in omega.bodies:
         radius = getattr(body.shape, 'radius', None)
         if radius is None:
