@@ -1,7 +1,7 @@
 """Waves along an elastic bar, FESolver(axisymmetric=True), against the first root of Pochhammer and Chree.
 
-Equations: Graff 1991, Wave Motion in Elastic Solids, 470. A travelling train of waves has the mode's displacements times
-an envelope along the bar; its part of exactly the wave number k has the mode's frequency, whatever the envelope.
+Equations: Graff 1991, Wave Motion in Elastic Solids, 470. A travelling train of waves has the mode's displacements
+times an envelope along the bar; its part of exactly the wave number k has the mode's frequency, whatever the envelope.
 """
 import math
 
@@ -46,7 +46,7 @@ def firstMode(k, poisson):
 
 
 def shape(x, speed, k, poisson):
-    """Radial and axial displacement of the mode at x from the axis, over cos and sin (ky − ωt); surface without shear."""
+    """Radial, axial displacement of the mode at x from the axis, over cos and sin (ky − ωt); no shear at R."""
     a, b = wavesAcross(speed, k, poisson)
     part = 2 * k * a * jv(1, a * RADIUS) / ((b**2 - k**2) * jv(1, b * RADIUS))
     radial = -a * jv(1, a * x) - k * part * jv(1, b * x)
@@ -55,7 +55,7 @@ def shape(x, speed, k, poisson):
 
 
 def measured(ratio, poisson=.3, parts=8, factor=.5, element=None):
-    """(m/s, m/s) Phase velocity of a train with R/λ = `ratio`, by the frequency of its part k in two periods; theory."""
+    """(m/s, m/s) Phase velocity of a train with R/λ = `ratio`, by the frequency of its part k in 2 periods; theory."""
     k = 2 * math.pi * ratio / RADIUS
     theory = firstMode(k, poisson)
     length, size = 14 * RADIUS / ratio, 1e-6 * RADIUS
@@ -114,7 +114,7 @@ CASES = [*((ratio, {}) for ratio in RATIOS), *((ratio, {'poisson': .45}) for rat
 
 @pytest.mark.parametrize('ratio, settings', CASES)
 def test_trainHasThePhaseVelocityOfPochhammerAndChree(ratio, settings):
-    """'linear', the default, is off by .0003 to .003, 'smoothed' by .0006 to .008. Lateral inertia: .009 at R/λ = .1."""
+    """'linear', the default, is off by .0003 to .003, 'smoothed' by .0006 to .008. Lateral inertia: .009 at .1."""
     found, theory = measured(ratio, **settings)
     assert found == pytest.approx(theory, rel=.01 if settings.get('element') else .004)
 
