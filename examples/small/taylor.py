@@ -11,7 +11,6 @@ import sys
 import matplotlib.pyplot as plt
 import numpy
 from yadefrag import *
-from yade import utils
 
 # Speed (m/s), length (mm), what was measured (mm from the axis and from the wall), constants.
 CYLINDERS = {
@@ -30,18 +29,19 @@ CYLINDERS = {
                                heatCapacity=896))}
 RADIUS = 3.81e-3  # m
 
-figure, axes = plt.subplots(1, 3, figsize=(11, 7.5), sharey=True, layout='constrained')
+figure, axes = plt.subplots(1, 3, figsize=(11, 4.8), sharey=True, layout='constrained')
 for panel, (name, (speed, length, profile, constants)) in zip(axes, CYLINDERS.items()):
     O.reset()
     O.materials.append(PlasticFEMat(frictionAngle=0, **constants))
     fe = FESolver(axisymmetric=True)
     fe.addPolygon(rectangle((0, 0), (RADIUS, length / 1e3)), size=RADIUS / 8, material=0, velocity=(0, -speed))
-    O.bodies.append(utils.wall((0, 0, 0), axis=1))
+    O.bodies.append(wall((0, 0, 0), axis=1))
     O.engines = engines(fe)
     O.dt = .5 * fe.criticalTimeStep()
     before = fe.energy['total']
-    while fe.masses @ fe.velocities[:, 1] < 0:  # until it rebounds
+    while fe.masses @ fe.velocities[:, 1] < 0:
         O.run(100, True)
+    O.run(O.iter // 2, True)  # it rebounds
     (foot, _), (_, final) = profile[0], profile[-1]
     print('%s, %d m/s: length %.2f mm, measured %.2f mm; foot %.2f mm, measured %.2f mm; energy off by %.1e' % (
         name, speed, 1e3 * numpy.ptp(fe.nodes[:, 1]), final, 2e3 * fe.nodes[:, 0].max(), 2 * foot,
@@ -49,10 +49,11 @@ for panel, (name, (speed, length, profile, constants)) in zip(axes, CYLINDERS.it
     plotMesh(fe, 'plasticStrain', ax=panel, limits=(0, 2), mirror=True, rigidBodies=False)
     if panel is not axes[2]:
         panel.collections[0].colorbar.remove()
-    x, y = numpy.transpose(profile) / 1e3
+    x, y = numpy.transpose(profile) / 1e3 + [[0], [fe.nodes[:, 1].min()]]
     panel.plot([*-x, *x], [*y, *y], 'o', mfc='w', mec='C3', mew=1.5, ms=6, label='measured')
     panel.set(title=f'{name}, {speed} m/s', xlim=(-.0095, .0095), ylim=(-.0005, .0238))
     panel.axhline(0, color='k', linewidth=2)
     panel.label_outer()
 axes[0].legend(loc='upper left')
-figure.savefig(os.path.join(sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(sys.argv[0])), 'taylor.png'), dpi=110)
+folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(sys.argv[0]))
+figure.savefig(os.path.join(folder, 'taylor.png'), dpi=120)
