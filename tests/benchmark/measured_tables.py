@@ -204,8 +204,8 @@ def taylor():
 
     rows = [{'material': row['material'], 'measured by': row['source'], 'mm': f'{row["length"]} × {row["diameter"]}',
              'm/s': row['speed'], 'length, mm': row['final'], 'computed': beside(row, 'computed final', 'final', .05),
-             'foot, mm': row['foot'], 'without friction': beside(row, 'computed foot', 'foot'),
-             'with .1': beside(row, 'foot with friction', 'foot', .1)} for row in stored]
+             'foot, mm': row['foot'], 'computed, no friction': beside(row, 'computed foot', 'foot'),
+             'friction .1': beside(row, 'foot with friction', 'foot', .1)} for row in stored]
     return markdown(rows, about)
 
 

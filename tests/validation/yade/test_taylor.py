@@ -27,7 +27,7 @@ MISSED = {'final': [*(('Johnson and Cook', speed) for speed in ('130', '146', '1
 def constants(material):
     """The arguments of PlasticFEMat in the row of this material on the page."""
     page = (ROOT / 'docs' / 'materials.md').read_text()
-    row = re.search(rf'^\| {material} ¹?²?³? \|(.*)\|$', page, re.M)[1]
+    row = re.search(rf'^\| {material} [¹²³] \|(.*)\|$', page, re.M)[1]
     names = ('yieldStress', 'hardening', 'hardeningExponent', 'rateFactor', 'thermalExponent', 'meltTemperature',
              'young', 'poisson', 'density', 'heatCapacity')
     units = 1e6, 1e6, 1, 1, 1, 1, 1e9, 1, 1, 1
