@@ -14,19 +14,20 @@ from yadefrag import *
 
 # Speed (m/s), length (mm), what was measured (mm from the axis and from the wall), constants.
 CYLINDERS = {
-    'copper, OFHC': (210, 23.47, [(8.29, 0), (7.37, .73), (5.74, 1.79), (5.02, 4.06), (4.52, 7.47), (3.95, 10.72),
-                                  (3.81, 15.09)],
-                     dict(young=124e9, poisson=.34, density=8960, yieldStress=90e6, hardening=292e6, hardeningExponent=.31,
-                          rateFactor=.025, thermalExponent=1.09, meltTemperature=1356, heatCapacity=383)),
-    'steel 4340': (208, 25.4, [(5.55, 0), (4.78, 2.1), (4.3, 4.02), (4.03, 6), (3.98, 8.09), (3.88, 10.1), (3.88, 12.15),
-                               (3.75, 14.26), (3.78, 16.3), (3.77, 18.3), (3.77, 20.4), (3.81, 22.48)],
-                   dict(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6, hardeningExponent=.26,
-                        rateFactor=.014, thermalExponent=1.03, meltTemperature=1793, heatCapacity=477)),
-    'aluminium 6061-T6': (373, 23.47, [(8.3, 0), (7.14, .79), (6.22, 1.47), (5.21, 2.3), (4.68, 2.73), (4.38, 3.37),
-                                       (4.29, 4.1), (4.05, 4.98), (3.9, 6.1), (3.76, 11.34), (3.81, 16.5)],
-                          dict(young=68.9e9, poisson=.33, density=2700, yieldStress=324e6, hardening=114e6,
-                               hardeningExponent=.42, rateFactor=.002, thermalExponent=1.34, meltTemperature=925,
-                               heatCapacity=896))}
+    'copper, OFHC': (
+        210, 23.47, [(8.29, 0), (7.37, .73), (5.74, 1.79), (5.02, 4.06), (4.52, 7.47), (3.95, 10.72), (3.81, 15.09)],
+        dict(young=124e9, poisson=.34, density=8960, yieldStress=90e6, hardening=292e6, hardeningExponent=.31,
+             rateFactor=.025, thermalExponent=1.09, meltTemperature=1356, heatCapacity=383)),
+    'steel 4340': (
+        208, 25.4, [(5.55, 0), (4.78, 2.1), (4.3, 4.02), (4.03, 6), (3.98, 8.09), (3.88, 10.1), (3.88, 12.15),
+                    (3.75, 14.26), (3.78, 16.3), (3.77, 18.3), (3.77, 20.4), (3.81, 22.48)],
+        dict(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6, hardeningExponent=.26,
+             rateFactor=.014, thermalExponent=1.03, meltTemperature=1793, heatCapacity=477)),
+    'aluminium 6061-T6': (
+        373, 23.47, [(8.3, 0), (7.14, .79), (6.22, 1.47), (5.21, 2.3), (4.68, 2.73), (4.38, 3.37), (4.29, 4.1),
+                     (4.05, 4.98), (3.9, 6.1), (3.76, 11.34), (3.81, 16.5)],
+        dict(young=68.9e9, poisson=.33, density=2700, yieldStress=324e6, hardening=114e6, hardeningExponent=.42,
+             rateFactor=.002, thermalExponent=1.34, meltTemperature=925, heatCapacity=896))}
 RADIUS = 3.81e-3  # m
 
 figure, axes = plt.subplots(1, 3, figsize=(11, 4.8), sharey=True, layout='constrained')
