@@ -2,8 +2,8 @@
 
     scripts/yade -n -x examples/small/taylor.py [FOLDER of the picture]
 
-Constants: docs/materials.md, with more cylinders. Measured: Wilkins and Guinan 1973, Johnson and Cook 1983, by drawings that
-github.com/bbanerjee/HighRateExptData has read; first and last point are the diameter of the foot and the length.
+Constants: docs/materials.md. Measured: Wilkins and Guinan 1973, Johnson and Cook 1983, in the drawings of
+github.com/bbanerjee/HighRateExptData; the first point has the radius of the foot, the last one the length.
 """
 import os
 import sys
@@ -37,8 +37,7 @@ for panel, (name, (speed, length, profile, constants)) in zip(axes, CYLINDERS.it
     fe = FESolver(axisymmetric=True)
     fe.addPolygon(rectangle((0, 0), (RADIUS, length / 1e3)), size=RADIUS / 8, material=0, velocity=(0, -speed))
     O.bodies.append(wall((0, 0, 0), axis=1))
-    O.engines = engines(fe)
-    O.dt = .5 * fe.criticalTimeStep()
+    O.engines, O.dt = engines(fe), .5 * fe.criticalTimeStep()
     before = fe.energy['total']
     while fe.masses @ fe.velocities[:, 1] < 0:
         O.run(100, True)
