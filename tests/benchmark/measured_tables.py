@@ -10,6 +10,7 @@ import argparse
 import csv
 import functools
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -192,8 +193,24 @@ def times():
     return markdown(rows, about)
 
 
+def taylor():
+    """Cylinders on a wall: measured and computed. Bold: misses 5 % of the length, 10 % of the foot with friction."""
+    about, stored = read('taylor')
+
+    def beside(row, name, wanted, allowed=math.inf):
+        off = float(row[name]) / float(row[wanted]) - 1
+        text = f'{row[name]}, {100 * off:+.1f} %'.replace('-', '−')
+        return f'**{text}**' if abs(off) > allowed else text
+
+    rows = [{'material': row['material'], 'measured by': row['source'], 'mm': f'{row["length"]} × {row["diameter"]}',
+             'm/s': row['speed'], 'length, mm': row['final'], 'computed': beside(row, 'computed final', 'final', .05),
+             'foot, mm': row['foot'], 'computed, no friction': beside(row, 'computed foot', 'foot'),
+             'friction .1': beside(row, 'foot with friction', 'foot', .1)} for row in stored]
+    return markdown(rows, about)
+
+
 TABLES = {'codes in short': codesInShort, 'codes': codes, 'searches of colliders': searchesOfColliders, 'times': times,
-          'validation': validation,
+          'validation': validation, 'taylor': taylor,
           **{name: functools.partial(whole, name) for name in ('intervals', 'stirred', 'advice', 'mpi', 'sizes', 'small', 'cracks', 'bodies')}}
 
 
