@@ -79,7 +79,7 @@ MAKERS = (
             rows=('ripple, straight', 'ripple, smooth', 'straight / smooth')),
     example('spheres', timed=True),
     *map(small, ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo',
-                 'taylor')),
+                 'taylor', 'spall')),
     Maker('codes', 'spheres', ('codes.png',), 'scripts/bench codes --out {out}', table=False, timed=True),
     Maker('figure14', 'figure14', ('figure14.png',), 'scripts/bench figure14 --out {out}', table=False, timed=True),
     Maker('tradeoff', 'tradeoff',

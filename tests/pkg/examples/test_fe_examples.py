@@ -243,7 +243,7 @@ def test_interruptedRunStillReports(folder):
     assert os.listdir(folder) == ['squares.png']
 
 
-kScenes = ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo', 'taylor')
+kScenes = ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo', 'taylor', 'spall')
 
 
 def test_columnCarriesItsWeight(folder):
@@ -301,6 +301,18 @@ def test_cylindersHaveMeasuredLengthsAndFeet(folder):
     for length, measured, foot, itsMeasured, energy in found:
         assert length == pytest.approx(measured, rel=.05) and foot == pytest.approx(itsMeasured, rel=.05)
         assert abs(energy) < 1e-4
+
+
+@pytest.mark.long
+def test_discSpallsAtTheGivenStress(folder):
+    """13 triangles in the flyer, and a larger speed than in test_spall_disc.py: 5 %."""
+    found = figures('spall', folder)
+    velocity, closed = found['velocity of the rear face']
+    assert velocity == pytest.approx(closed, rel=.01)
+    _, strength, given = found['pull-back']
+    assert strength == pytest.approx(given, rel=.05)
+    cracks, change = found['cracks']
+    assert cracks > 100 and abs(change) < 1e-3
 
 
 @pytest.mark.parametrize('name', kScenes)
