@@ -153,8 +153,6 @@ struct NodeSum {
 
 // The following functions ignore all bodies without smoothed strains.
 
-/// (J) Energy at the half step.
-double smoothedEnergy(const Model& model, double dt);
 /// (J) Energy of some triangles at the half step; there must be no others at their nodes.
 double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt);
 

@@ -97,21 +97,6 @@ double NodeSum::energy(const ElasticMaterial& material) const {
          (nodeEnergyDensity(x, material, h) + nodeEnergyDensity(y, material, g) - work / 2) / 2;
 }
 
-double smoothedEnergy(const Model& model, double dt) {
-  if (!anySmoothed(model)) return 0;
-  std::vector<NodeSum> sums(model.nodes.size());
-  double sum = 0;
-  forEachSmoothed(model, [&](ElementId element) {
-    NodeSum one;
-    one.add(model, element, 1, dt);
-    for (std::size_t i = 0; i < 3; ++i)
-      sums[model.triangles.nodes[element.value][i].value] += model.massShare(element, i) * one;
-    sum += twiceOwnEnergy(model, element, dt) / 2;
-  });
-  for (std::size_t n = 0; n < sums.size(); ++n) sum += sums[n].energy(materialAt(model, NodeId(n)));
-  return sum;
-}
-
 double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt) {
   std::vector<NodeId> nodes;
   for (const ElementId e : elements)

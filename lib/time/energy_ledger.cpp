@@ -48,19 +48,10 @@ double moment(std::span<const Vec2> positions, std::span<const Vec2> forces) {
 }
 
 double strainEnergy(const Model& model, double dt) {
-  double sum = smoothedEnergy(model, dt) + yieldingEnergy(model, dt).strain;
-  for (const Component& c : model.components) {
-    if (c.element == ElementKind::kSmoothed || c.yields()) continue;
-    double twice = 0;
-    Moduli moduli(c.material);
-    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
-      moduli.take(model, c, ElementId(e));
-      const double depth = model.axisymmetric ? model.depthOf(ElementId(e)) : 1;
-      twice += twiceEnergy(model, ElementId(e), moduli, dt) * depth;
-    }
-    sum += model.axisymmetric ? twice / 2 : twice * c.thickness / 2;
-  }
-  return sum;
+  std::vector<ElementId> all;
+  for (std::size_t e = 0; e < model.triangles.size(); ++e)
+    if (!model.triangles.isDropped(e)) all.emplace_back(e);
+  return strainEnergy(model, dt, all);
 }
 
 double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements) {
