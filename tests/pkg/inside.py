@@ -15,8 +15,8 @@ from _pytest.runner import runtestprotocol
 
 
 # They take half a minute or more: begun last, one of them would run alone.
-kLongest = ['test_long_examples.py', 'test_yade_own.py', 'test_memory.py', 'test_mpi.py', 'test_same_bits.py',
-            'test_laws.py', 'test_tradeoff.py', 'test_forms.py', 'test_fe_examples.py']
+kLongest = ['test_long_examples.py', 'test_spall_disc.py', 'test_hopkinson_bar.py', 'test_yade_own.py', 'test_memory.py',
+            'test_mpi.py', 'test_same_bits.py', 'test_laws.py', 'test_tradeoff.py', 'test_forms.py', 'test_fe_examples.py']
 
 
 class Shared:
