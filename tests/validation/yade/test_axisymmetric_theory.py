@@ -1,42 +1,15 @@
-"""Bodies around an axis: cavities that expand, a punch, Hertz's sphere, a vessel beside CalculiX, a tube that breaks."""
+"""Bodies around an axis beside closed forms: cavities that expand, a punch, Hertz's sphere."""
 import functools
 import math
 
 import numpy
 import pytest
 from yade import utils
-from yadefrag import FEMat, FESolver, PlasticFEMat, rectangle
-from fe_scene import O, ready
+from yadefrag import FEMat, PlasticFEMat, rectangle
+from axis_scene import arc, BAR, body, O, POISSON, STEEL, untilTime, YOUNG
+from fe_scene import ready
 
-YOUNG, POISSON, DENSITY = 200e9, .3, 7800
-STEEL = dict(young=YOUNG, poisson=POISSON, density=DENSITY, frictionAngle=0)
-BAR = math.sqrt(YOUNG / DENSITY)  # m/s
 PLANE = YOUNG / (1 - POISSON**2)
-
-
-def body(material, outline, size, **settings):
-    O.reset()
-    O.materials.append(material)
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(outline, size=size, material=0, **settings)
-    return fe
-
-
-def untilTime(fe, time):
-    while fe.time < time:
-        O.run(20, True)
-
-
-def eased(way, duration):
-    """(m/s) By time, from rest to rest."""
-    return lambda x, y, t: way / duration * math.pi / 2 * math.sin(math.pi * t / duration) if t < duration else 0.
-
-
-def arc(radius, angles):
-    """Points from the axis below (angle 0) to the side."""
-    points = radius * numpy.stack([numpy.sin(angles), -numpy.cos(angles)], axis=1)
-    points[numpy.isclose(angles, 0), 0] = 0
-    return points
 
 
 # --- cavities in an ideally plastic body (Bishop, Hill and Mott 1945; Hill 1950, ch. V)
@@ -82,7 +55,7 @@ def cavity(order, part, step, growth=2.5, speed=20.):
     return numpy.mean(over)
 
 
-@pytest.mark.parametrize('order, part, step', [(3, .15, .5), (3, .15, .25), (3, .1, .5), (2, .1, .5), (2, .1, .25), (2, .05, .5)])
+@pytest.mark.parametrize('order, part, step', [(3, .15, .5), (3, .1, .5), (2, .1, .5), (2, .1, .25)])
 def test_cavityExpandsAtThePressureOfHill(order, part, step):
     """Integrated along the radius, with all large strains, the exact pressure in the sphere is 1.0053 times Hill's."""
     assert cavity(order, part, step) == pytest.approx(1.0053 if order == 3 else 1, rel=.02)
@@ -119,7 +92,7 @@ def punchedForce(far, part, element='linear', step=.8):
 
 
 @pytest.mark.parametrize('part, element, step, allowed', [
-    (.2, 'smoothed', .8, .03), (.1, 'linear', .8, .03), (.1, 'linear', .4, .03), (.1, 'smoothed', .8, .01)])
+    (.2, 'smoothed', .8, .03), (.2, 'smoothed', .4, .03), (.1, 'linear', .8, .03), (.1, 'smoothed', .8, .01)])
 def test_punchSinksAsByBoussinesq(part, element, step, allowed):
     """The compliance of the infinite body is found from two sizes: the rest of it falls with 1/far. The stress at the
     end of the punch is singular: 'linear' triangles are +1.5 %, with part = .2 +3.3 %."""
@@ -149,12 +122,12 @@ def pressedSphere(part, across, element='linear', step=.8):
     side = arc(RADIUS, numpy.array(angles) / angles[-1] * math.pi / 2) + (0, RADIUS)
     fe = body(FEMat(**STEEL), [*side, (0, RADIUS)], size, element=element)
     plane = numpy.flatnonzero(fe.nodes[:, 1] > RADIUS - 1e-9)
-    duration, way = 10 * RADIUS / BAR, part**2 * RADIUS
-    fe.prescribe(plane, vy=eased(-way, duration))
+    duration, way = 8 * RADIUS / BAR, part**2 * RADIUS
+    fe.prescribe(plane, vy=lambda x, y, t: -way / duration * math.pi / 2 * math.sin(math.pi * min(t / duration, 1)))
     fe.damping = 3 * BAR / RADIUS
     O.bodies.append(utils.wall((0, 0, 0), axis=1))
     ready(fe, step)
-    untilTime(fe, 2.5 * duration)
+    untilTime(fe, 2 * duration)
     assert fe.energy['kinetic'] < 1e-5 * fe.energy['strain']
     force = fe.contactForces[:, 1].sum()
     assert fe.reaction(plane)[1] == pytest.approx(-force, rel=1e-3)
@@ -178,51 +151,3 @@ def test_sphereTouchesAsByHertz(across, element, step):
     assert 2 * small[0] - large[0] == pytest.approx(1, abs=.03)
     for found in (small, large):
         assert found[1:] == pytest.approx((1, 1), abs=.03)
-
-
-# --- a bar that is stretched and breaks (Mott 1947)
-
-BAR_RADIUS, LENGTH, STRAIN, MODULUS = 1e-3, .2, .2, 6  # m, m; failure strain of a millimetre, modulus of its scatter
-ALUMINIUM = dict(young=68.9e9, poisson=.33, density=2700, yieldStress=324e6, hardening=114e6, hardeningExponent=.42,
-                 rateFactor=.002, thermalExponent=1.34, meltTemperature=925, heatCapacity=896)
-
-
-def mottCracks(rate):
-    """Cracks in LENGTH by the theory and constants of tests/validation/mechanics/plastic_limit_test.cpp, without the factor
-    of the rate, 2 %; the ends of the bar keep their speed."""
-    m = ALUMINIUM
-    hazard = MODULUS / (1e-3 * STRAIN**MODULUS)
-    strain, cracks = STRAIN, 0
-    for _ in range(50):
-        stress = m['yieldStress'] + m['hardening'] * strain**m['hardeningExponent']
-        wave = math.sqrt(2 * stress / m['density']) / rate
-        beta = math.gamma(MODULUS) * math.gamma(1.5) / math.gamma(MODULUS + 1.5)
-        strain = (2 * wave * hazard * beta)**(-1 / (MODULUS + .5))
-        cracks = LENGTH * hazard / (MODULUS + .5) * math.gamma(MODULUS / (MODULUS + .5)) * strain**MODULUS
-    return cracks
-
-
-def crackedBar(rate, seed, size, step=.8):
-    """Cracks through a bar whose parts of 1 mm have failure strains of their own."""
-    factors = (-numpy.log(numpy.random.default_rng(seed).random(round(LENGTH / 1e-3))))**(1 / MODULUS)
-    fe = body(PlasticFEMat(**ALUMINIUM, failureStrain=STRAIN, fractureEnergy=3e3, frictionAngle=0),
-              rectangle((0, 0), (BAR_RADIUS, LENGTH)), size, meshSeed=seed,
-              velocity=lambda x, y: (0, rate * (y - LENGTH / 2)),
-              strength=lambda x, y: factors[min(int(y / 1e-3), len(factors) - 1)])
-    for end in (0, LENGTH):
-        fe.prescribe(numpy.flatnonzero(abs(fe.nodes[:, 1] - end) < 1e-9), vy=rate * (end - LENGTH / 2))
-    ready(fe, step)
-    energy, mass = fe.energy['total'], fe.masses.sum()
-    untilTime(fe, .4 / rate)
-    assert fe.energy['total'] == pytest.approx(energy, rel=1e-6)
-    # Less than a fifth of a millimetre is a chip of a crack.
-    return sum(one['mass'] > 2e-4 / LENGTH * mass for one in fe.fragments()) - 1
-
-
-@pytest.mark.parametrize('seed, size, step', [(1, 1 / 3, .8), (4, 1 / 3, .8), (1, 1 / 4, .8), (1, 1 / 3, .4)])
-def test_barBreaksAsByMott(seed, size, step):
-    """Mean of three rates; one count is that of one draw. As with the plane ring there is no bound to be met, 35 % is what
-    draws and meshes leave open."""
-    found = [crackedBar(rate, seed + i, size * 1e-3, step) / mottCracks(rate)
-             for i, rate in enumerate((6250, 10940, 15625))]
-    assert numpy.mean(found) == pytest.approx(1, abs=.35), found
