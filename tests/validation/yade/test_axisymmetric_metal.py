@@ -15,8 +15,8 @@ ALUMINIUM = dict(young=68.9e9, poisson=.33, density=2700, yieldStress=324e6, har
 
 
 def mottCracks(rate):
-    """Cracks in LENGTH by the theory and constants of tests/validation/mechanics/plastic_limit_test.cpp, without the factor
-    of the rate, 2 %; the ends of the bar keep their speed."""
+    """Cracks in LENGTH, by the theory of tests/validation/mechanics/plastic_limit_test.cpp. The ends of the bar keep
+    their speed; the rate's factor of the yield stress, 1.02, is neglected."""
     m = ALUMINIUM
     hazard = MODULUS / (1e-3 * STRAIN**MODULUS)
     strain, cracks = STRAIN, 0
@@ -46,10 +46,9 @@ def crackedBar(rate, seed, size, step=.8):
     return sum(one['mass'] > 2e-4 / LENGTH * mass for one in fe.fragments()) - 1
 
 
-@pytest.mark.parametrize('seed, size, step', [(1, 1 / 3, .8), (4, 1 / 3, .8), (1, 1 / 4, .8), (1, 1 / 3, .4)])
+@pytest.mark.parametrize('seed, size, step', [(1, 1 / 3, .8), (1, 1 / 3, .4), (4, 1 / 3, .8), (1, 1 / 4, .8)])
 def test_barBreaksAsByMott(seed, size, step):
-    """Mean of three rates; one count is that of one draw. As with the plane ring there is no bound to be met, 35 % is what
-    draws and meshes leave open."""
+    """Mean of three rates; one count is that of one draw. 35 %: the scatter of single draws, as of the plane ring."""
     found = [crackedBar(rate, seed + i, size * 1e-3, step) / mottCracks(rate)
              for i, rate in enumerate((6250, 10940, 15625))]
     assert numpy.mean(found) == pytest.approx(1, abs=.35), found
@@ -57,14 +56,14 @@ def test_barBreaksAsByMott(seed, size, step):
 
 # --- a vessel with a flat end under pressure, beside CalculiX 2.20
 
-# Half of a vessel, 50 mm within, wall 10 mm, end 12 mm; y = 0 is a plane of symmetry. CalculiX' static steps of .02 of the
-# load, NLGEOM, of the same triangles: CAX3, beside 'linear', or CAX6 with nodes at the middles of the sides, beside
-# 'smoothed', which does not lock either; *DLOAD on the same sides, nodes on the axis without radial motion, *PLASTIC
-# 300 MPa and 1 GPa of hardening. Of a case: size, pressure, element; then mean of the end's centre, along the axis, of the
-# wall at y = 0, outwards (m), the radial stress of the end outside, x < 12 mm, y > 69 mm, and the von Mises stress,
-# weighted by volume (Pa). Of 30 November 2026.
+# Half of a vessel with an inner radius of 50 mm, a wall of 10 mm and an end of 12 mm; y = 0 is a plane of symmetry.
+# CalculiX' input: the same triangles as CAX3, beside 'linear', or with nodes at the middles of their sides as CAX6,
+# beside 'smoothed', since neither of these locks; *DLOAD on the same sides; no radial motion of nodes on the axis;
+# *PLASTIC with 300 MPa and a hardening of 1 GPa; *STATIC with NLGEOM in steps of .02. Of 30 November 2026.
 VESSEL = [(.05, 0), (.06, 0), (.06, .072), (0, .072), (0, .06), (.05, .06)]
-CASES = {  # CAX3 of 3 mm, elastic and with flow; CAX6 of 1.5 mm, with flow
+# Size (m), pressure (Pa), element, flow: motion of the end's centre along the axis and of the wall at y = 0 outwards
+# (m); means by volume of the radial stress of the end's outside and of the von Mises stress (Pa).
+CASES = {
     (3e-3, 10e6, 'linear', False): (6.57475e-5, 1.25097e-5, 9.49365e7, 4.19334e7),
     (3e-3, 40e6, 'linear', True): (2.97802e-4, 5.02948e-5, 2.71681e8, 1.71284e8),
     (1.5e-3, 40e6, None, True): (3.63034e-4, 5.05022e-5, 2.93841e8, 1.82526e8)}
@@ -72,8 +71,8 @@ CASES = {  # CAX3 of 3 mm, elastic and with flow; CAX6 of 1.5 mm, with flow
 
 @pytest.mark.parametrize('case, allowed', [*zip(CASES, (3e-3, .02, .025))])
 def test_vesselIsThatOfCalculiX(case, allowed):
-    """Measured −.03, +.07, −.11, −.01 %; +.6, +.1, −1.3, +.1 %; −1.2, +.1, −2.0, −.5 %. The load grows in 1.6 ms: in .4 ms
-    inertia adds 1.7 % to the motion of the end that flows."""
+    """Measured −.03, +.07, −.11, −.01 %; +.6, +.1, −1.3, +.1 %; −1.2, +.1, −2.0, −.5 %. The load grows in 1.6 ms; in .4
+    ms inertia would add 1.7 % to the motion of the end that flows."""
     size, pressure, element, flows = case
     material = PlasticFEMat(**STEEL, yieldStress=300e6, hardening=1e9) if flows else FEMat(**STEEL)
     fe = body(material, VESSEL, size, element=element, fixed=lambda x, y: 'y' if y < 1e-9 else False)
@@ -98,7 +97,7 @@ def test_vesselIsThatOfCalculiX(case, allowed):
 
 # --- a projectile with an ogive's nose in a target with a bore (Forrestal, Okajima and Luk 1988)
 
-CALIBRE, HEAD, LONG, TARGET_YIELD = 3.5e-3, 3, 40e-3, 300e6  # radius (m), calibres of the ogive's radius, length (m), Pa
+CALIBRE, HEAD, LONG, TARGET_YIELD = 3.5e-3, 3, 40e-3, 300e6  # m, half of it; of the ogive's radius; m; Pa
 ALLOY = dict(young=68.9e9, poisson=.33, density=2700, yieldStress=TARGET_YIELD, frictionAngle=0)
 OGIVE = 2 * CALIBRE * HEAD
 NOSE = math.sqrt(OGIVE**2 - (OGIVE - CALIBRE)**2)
@@ -110,8 +109,8 @@ def noseRadius(depth):
 
 
 def modelDepth(mass, speed, bore, start):
-    """(m) Of the tip: each ring of the nose that is wider than the bore bears the pressure 2Y/3 (1 + ln E/(3 (1 − ν) Y)) of
-    a spherical cavity and 1.1 ρ v² (8ψ − 1)/(24ψ²), the mean over the nose of inertia, here 2 % of it."""
+    """(m) Of the tip. The nose, as far as it is wider than the bore, bears the pressure of a spherical cavity, 2Y/3 (1
+    + ln E/(3 (1 − ν) Y)), and that of inertia, 1.1 ρv² (8ψ − 1)/(24ψ²), which is here 2 % of it."""
     pressure = 2 * TARGET_YIELD / 3 * (1 + math.log(ALLOY['young'] / (3 * (1 - ALLOY['poisson']) * TARGET_YIELD)))
     inertia = 1.1 * ALLOY['density'] * (8 * HEAD - 1) / (24 * HEAD**2)
     depth, square, step = start, speed**2, 1e-5
@@ -123,12 +122,13 @@ def modelDepth(mass, speed, bore, start):
 
 
 @pytest.mark.parametrize('bore, part, element, step', [
-    (1 / 2, .35, None, .5), (1 / 2, .35, None, .25), (1 / 2, .25, 'linear', .5), (1 / 4, .5, 'linear', .5)])
+    (1 / 2, .35, None, .5), (1 / 2, .35, None, .25), (1 / 2, .25, None, .5), (1 / 4, .5, 'linear', .5)])
 def test_projectileStopsAtTheDepthOfForrestal(bore, part, element, step):
-    """15 %: those of the model beside its tests. Measured +3.7, , +3.5, +5.9 %. The projectile, of steel, is elastic; the
-    tip begins in a bore of that part of the calibre."""
+    """Measured +3.3, +3.2, +2.6, +5.8 %. 15 %: the model's cavity opens from nothing in an infinite body. `bore` is a
+    part of the calibre; the tip begins in it. The projectile is elastic."""
     bore *= CALIBRE
-    fe = body(PlasticFEMat(**ALLOY), rectangle((bore, -.045), (.04, 0)), lambda x, y: part * max(bore, x), element=element)
+    fe = body(PlasticFEMat(**ALLOY), rectangle((bore, -.045), (.04, 0)), lambda x, y: part * max(bore, x),
+              element=element)
     fe.passes = 2
     x, y = fe.nodes.T
     fe.absorb(numpy.flatnonzero((x > .04 - 1e-9) | (y < -.045 + 1e-9)))
@@ -147,5 +147,4 @@ def test_projectileStopsAtTheDepthOfForrestal(bore, part, element, step):
         O.run(50, True)
         deepest = max(deepest, -fe.nodes[tip, 1])
     assert fe.energy['total'] == pytest.approx(energy, rel=1e-5)
-    print('depth', deepest / modelDepth(weights.sum(), 300, bore, start))
     assert deepest == pytest.approx(modelDepth(weights.sum(), 300, bore, start), rel=.15)

@@ -1,5 +1,4 @@
 """Bodies around an axis beside closed forms: cavities that expand, a punch, Hertz's sphere."""
-import functools
 import math
 
 import numpy
@@ -18,11 +17,11 @@ CAVITY, YIELD = 1e-3, 400e6  # m, Pa
 
 
 def plasticCavity(growth, order):
-    """Pressure in a cavity in an infinite body, in a sphere (order 3) or a tube (2), whose radius has grown by `growth`.
+    """Pressure (Pa) in a sphere (order n = 3) or a tube (2) in an infinite body, whose radius has grown by `growth`.
 
-    The plastic front is at c with (c/a)ⁿ = N (1 − growth⁻ⁿ) + growth⁻ⁿ, N = E/(3 (1 − ν) Y) or √3 E/((5 − 4ν) Y), which
-    counts the change of volume in the plastic zone, and neglects squares of Y/E; p = 2Y'/n + 2Y' ln c/a, Y' = Y/√3 in a
-    tube. For a large growth this is the limit 2Y/3 (1 + ln N), Y/√3 (1 + ln N).
+    The plastic front is at c with (c/a)ⁿ = N (1 − growth⁻ⁿ) + growth⁻ⁿ, N = E/(3 (1 − ν) Y) or √3 E/((5 − 4ν) Y). This
+    counts the change of volume in the plastic zone and neglects squares of Y/E. p = 2Y'/n + 2Y' ln c/a, with Y' = Y or
+    Y/√3. For a large growth this is the limit 2Y/3 (1 + ln N) or Y/√3 (1 + ln N).
     """
     shear = YIELD if order == 3 else YIELD / math.sqrt(3)
     factor = YOUNG / (3 * (1 - POISSON) * YIELD) if order == 3 else math.sqrt(3) * YOUNG / ((5 - 4 * POISSON) * YIELD)
@@ -31,8 +30,8 @@ def plasticCavity(growth, order):
 
 
 def cavity(order, part, step, growth=2.5, speed=20.):
-    """Pressure over that of `plasticCavity`, in a body of 100 radii that absorbs waves; triangles have `part` of their
-    distance from the centre. The inertia of 20 m/s adds 3/2 ρv², .3 %."""
+    """Pressure over that of `plasticCavity`, in a body of 100 radii whose outer side absorbs waves. Triangles have
+    `part` of their distance from the centre. The inertia of 20 m/s adds 3/2 ρv², .3 %."""
     far, high = 100 * CAVITY, .5 * CAVITY
     angles = numpy.linspace(math.pi / 2, 0, round(math.pi / 2 / part) + 1)
     outline = rectangle((CAVITY, 0), (far, high)) if order == 2 else \
@@ -57,7 +56,8 @@ def cavity(order, part, step, growth=2.5, speed=20.):
 
 @pytest.mark.parametrize('order, part, step', [(3, .15, .5), (3, .1, .5), (2, .1, .5), (2, .1, .25)])
 def test_cavityExpandsAtThePressureOfHill(order, part, step):
-    """Integrated along the radius, with all large strains, the exact pressure in the sphere is 1.0053 times Hill's."""
+    """Integrated along the radius, with all large strains, the exact pressure in the sphere is 1.0053 times Hill's.
+    Measured +1.4, +.7 % of it, and +.5 % in the tube; +.8 % with triangles of .05."""
     assert cavity(order, part, step) == pytest.approx(1.0053 if order == 3 else 1, rel=.02)
 
 
@@ -66,11 +66,10 @@ def test_cavityExpandsAtThePressureOfHill(order, part, step):
 PUNCH, SUNK = .01, 1e-5  # m
 
 
-@functools.cache
 def punchedForce(far, part, element='linear', step=.8):
-    """Force of a cylinder of that radius, over 2E/(1 − ν²) times radius and way, on a hemisphere of `far` radii that is
-    held; and the stress at the centre over F/(2π PUNCH²). Triangles grow by `part` of the distance from the punch's end,
-    from a 40th of its radius, and inside it up to 2 `part` of the radius."""
+    """Force of a rigid cylinder on a hemisphere of `far` radii whose outer side is held, over 2E/(1 − ν²) times its
+    radius and its way; stress at the centre over F/(2π radius²). Triangles have a 40th of the radius at the punch's
+    edge, and grow by `part` of the distance from it."""
     outline = [(0, 0), *arc(far * PUNCH, numpy.linspace(0, math.pi / 2, 12)), (PUNCH, 0)]
     fe = body(FEMat(**STEEL), outline, element=element, fixed=lambda x, y: math.hypot(x, y) > .98 * far * PUNCH,
               size=lambda x, y: min(PUNCH / 40 + part * math.hypot(x - PUNCH, y),
@@ -106,13 +105,12 @@ def test_punchSinksAsByBoussinesq(part, element, step, allowed):
 RADIUS = .01  # m
 
 
-@functools.cache
 def pressedSphere(part, across, element='linear', step=.8):
-    """Force, radius and largest pressure of a contact, whose radius is `part` of the sphere's, each over Hertz's; `across`
-    triangles are in it. The upper half of the sphere is left out: its plane of symmetry moves by part² of the radius.
+    """Force, radius and largest pressure of a contact over Hertz's. Its radius is `part` of the sphere's, and has
+    `across` triangles. Half of the sphere is modelled: its plane of symmetry moves by part² of the radius.
 
-    p² is linear in r²: a line through the pressures at the nodes, without those at the axis and at the end, gives p₀ and
-    the radius, which are compared with those of the force that is found."""
+    By Hertz p² is linear in r². A line through the pressures at the nodes, without the first and the last one, gives p₀
+    and the radius; they are compared with those of the force that is found."""
     wide = part * RADIUS
     size = lambda x, y: min(wide / across + .2 * max(0, math.hypot(x, y) - 1.5 * wide), RADIUS / 6)  # noqa: E731
     angles = [0.]
@@ -145,8 +143,8 @@ def pressedSphere(part, across, element='linear', step=.8):
 @pytest.mark.parametrize('across, element, step', [
     (10, 'linear', .8), (10, 'linear', .4), (10, 'smoothed', .8), (20, 'linear', .8)])
 def test_sphereTouchesAsByHertz(across, element, step):
-    """The force of the half-space is found from two loads: the sphere's other half adds a part that falls with the
-    radius of contact over that of the sphere, 2 and 4 % here."""
+    """The force of the half-space is found from two loads: the sphere's size adds a part that falls with the radius of
+    contact over that of the sphere, 2 and 4 % here. Measured +.5, +1.6, −1.7 %; 'smoothed' −1.1, +.4, −1.9 %."""
     small, large = (pressedSphere(part, across, element, step) for part in (.05, .1))
     assert 2 * small[0] - large[0] == pytest.approx(1, abs=.03)
     for found in (small, large):
