@@ -2,6 +2,7 @@
 // Bad input is reported by a typed exception with one sentence; programming errors are `assert`s.
 
 #include <stdexcept>
+#include <string>
 
 namespace yadefrag {
 
@@ -21,6 +22,13 @@ class TimeStepError : public InputError {
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// An element is pressed so flat that the step is above the critical one.
+class FlatError : public RunError {
+ public:
+  FlatError(const std::string& text, double step) : RunError(text), advised(step) {}
+  double advised;  ///< s
 };
 
 }  // namespace yadefrag

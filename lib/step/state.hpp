@@ -81,7 +81,7 @@ struct Settings {
   bool timing = false;  ///< fill `Exchange::times`
 };
 
-/// Not saved.
+/// Not part of the state; the reactions are saved beside it.
 struct Exchange {
   // --- for the next step only
   /// (m/s) By node: of nodes whose motion has a function.

@@ -362,13 +362,19 @@ void World::step(double dt) {
   const StepData data{*this, scratch_, *this, *this};
   buildIfChanged(data);
   beginUndo(*this, scratch_);
+  const auto where = [this](const RunError& error) {
+    return fmt::format("Step {}, time {:g} s: {}", steps, time, error.what());
+  };
   const Finished finished = [&] {
     try {
       requireStableStep(data, dt);
       return advance(data, dt);
+    } catch (const FlatError& error) {
+      undoAll(*this, scratch_);
+      throw FlatError(where(error), error.advised);
     } catch (const RunError& error) {
       undoAll(*this, scratch_);
-      throw RunError(fmt::format("Step {}, time {:g} s: {}", steps, time, error.what()));
+      throw RunError(where(error));
     } catch (...) {
       undoAll(*this, scratch_);
       throw;

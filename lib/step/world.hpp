@@ -111,9 +111,10 @@ class World : public WorldState, public Settings, public Exchange {
   void prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion);
 
   /// One step of Δt (s), which may differ from the previous one. Throws TimeStepError for a step
-  /// above the critical one, InputError if it does not resolve a crack's opening, RunError if an
-  /// element is inverted or a value is not finite. The state is then unchanged to the last bit: the
-  /// next step has the same result as without the refused one.
+  /// above the critical one, InputError if it does not resolve a crack's opening, FlatError if an
+  /// element is so flat that the step must be shorter, RunError if one is inverted or a value is
+  /// not finite. The state is then unchanged to the last bit: the next step has the same result as
+  /// without the refused one.
   void step(double dt);
 
   /// (s) Of the present mesh; infinite without elements.

@@ -80,7 +80,7 @@ class ExplicitDynamics {
   /// displacement of a node since `predict`. Elements are checked only if some were flat at xⁿ, or
   /// if a node moves by a large part (`kLargeMove`) of the least height of an element.
   Flattest requireUpright(const Model& model, double dt, double correction) const;
-  /// Throws RunError; `stable` (s): a sufficient step.
+  /// Throws FlatError; `stable` (s): a sufficient step.
   [[noreturn]] void refuseFlat(const Model& model, const Flattest& flattest, double dt,
                                double stable) const;
 

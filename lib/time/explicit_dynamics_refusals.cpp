@@ -83,11 +83,12 @@ ExplicitDynamics::Flattest ExplicitDynamics::requireUpright(const Model& model, 
 
 void ExplicitDynamics::refuseFlat(const Model& model, const Flattest& flattest, double dt,
                                   double stable) const {
-  throw RunError(fmt::format(
-      "{} is pressed to {:.2g} of its area in a step of {:g} s; the flatter an element is, the "
-      "stiffer it gets: take a step of at most {:g} s, or a stiffer material, slower bodies or "
-      "smaller loads.",
-      nameOf(model, flattest.element, previousPosition_), flattest.area, dt, stable));
+  throw FlatError(
+      fmt::format("{} is pressed to {:.2g} of its area in a step of {:g} s; the flatter an element "
+                  "is, the stiffer it gets: take a step of at most {:g} s, or a stiffer material, "
+                  "slower bodies or smaller loads.",
+                  nameOf(model, flattest.element, previousPosition_), flattest.area, dt, stable),
+      stable);
 }
 
 /// Exchanges the prescribed velocities of held directions with the nodes' previous velocities.

@@ -42,7 +42,7 @@ void FESolver::action() try {
   if (bodies_.ids().empty()) return;
   followScene();
   const std::uint64_t dropped = world_.dropped.count, searches = world_.numSearches();
-  const StepLength length(scene->dt, world_.lastDt);
+  const double lastDt = world_.lastDt;
 
   // From YADE's bodies: forces on nodes, motion of rigid boundaries.
   collectForces();
@@ -55,7 +55,7 @@ void FESolver::action() try {
 
   // To YADE's bodies: forces on rigid ones, then new faces, places and velocities of the pieces.
   if (rigid_.any()) {
-    rigid_.giveForces(*scene, world_, length, given_);
+    rigid_.giveForces(*scene, world_, {scene->dt, lastDt}, given_);
     rigid_.warnOfArcs(world_);
     report(rigid_.takeSentences());
   }
@@ -87,8 +87,10 @@ void FESolver::followScene() {
 
 void FESolver::stepWorld() {
   const std::size_t known = world_.warnings.size();
+  const double given = scene->dt;
   try {
-    world_.step(scene->dt);
+    while (!isStepDone(given)) {
+    }
   } catch (const TimeStepError& error) {
     throw std::invalid_argument("O.dt: " + std::string(error.what()) + byTimeStepper(*scene));
   } catch (const InputError& error) {
@@ -98,12 +100,29 @@ void FESolver::stepWorld() {
   warn(known);
 }
 
+/// False if O.dt was reduced: where bodies yield, flow presses triangles flat until their own
+/// stiffness stops them. `given` (s): O.dt before.
+bool FESolver::isStepDone(double given) try {
+  world_.step(scene->dt);
+  return true;
+} catch (const FlatError& error) {
+  const bool isPlastic = world_.model.triangles.plastic.isUsed();
+  if (!isPlastic || !(error.advised > tolerance::kLeastFlowStep * given)) throw;
+  scene->dt = std::min(error.advised, tolerance::kFlowStep * scene->dt);
+  reportFlowStep();
+  return false;
+}
+
 /// Reduces O.dt if plastic flow has made triangles so flat that it is above the critical step.
 void FESolver::followFlow() {
   if (!world_.hasFlowed()) return;
   const double critical = world_.criticalTimeStep();
   if (scene->dt <= critical) return;
   scene->dt = tolerance::kFlowStep * critical;
+  reportFlowStep();
+}
+
+void FESolver::reportFlowStep() {
   report(
       {"O.dt is reduced to 0.8 of the critical step where plastic flow makes triangles flatter "
        "(docs/materials.md)."});

@@ -142,6 +142,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkBodies();
   void collectForces();
   void followFlow();
+  void reportFlowStep();
+  bool isStepDone(double given);
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
   [[nodiscard]] std::string overlapWithSphere(std::size_t first) const;

@@ -101,6 +101,8 @@ inline constexpr double kSteeper = .02;
 /// (of the critical step) Step to which FESolver reduces O.dt after flow: the share that the manual
 /// advises.
 inline constexpr double kFlowStep = .8;
+/// (ratio) A single step does not reduce O.dt by more: such triangles are as good as inverted.
+inline constexpr double kLeastFlowStep = .01;
 
 /// (ratio) Largest mean stress over von Mises' stress in the formula of the failure strain, as in
 /// Johnson and Cook 1985, who bound it for lack of tests.

@@ -28,6 +28,20 @@ def test_smoothedIsTheDefaultAndLinearTrianglesLock():
     assert not numpy.array_equal(ends[None], ends['linear'])
 
 
+def test_trianglesPressedFlatReduceTheStep():
+    """Faster than sound to the middle: an elastic body is refused a step that presses a triangle flat, one that yields
+    gets shorter ones."""
+    O.materials.append(PlasticFEMat(young=1e6, poisson=.3, density=1000, yieldStress=1e3, frictionAngle=0))
+    fe = FESolver()
+    fe.addPolygon(rectangle((0, 0), (1, 1)), size=.15, material=0, element='linear',
+                  velocity=lambda x, y: (20 * (.5 - x), 20 * (.5 - y)))
+    ready(fe, .5)
+    step, energy = O.dt, fe.energy['total']
+    O.run(3000, True)
+    assert O.iter == 3000 and O.dt < step / 5 and 'O.dt is reduced' in fe.warnings[0]
+    assert fe.energy['total'] == pytest.approx(energy, rel=.03)
+
+
 def test_cohesionStaysAsSoilDilates():
     """Biaxial test, shortened by a tenth: the limit load is that of Mohr and Coulomb although the volume grows."""
     angle, cohesion, side = .5, 10e3, 5e3
