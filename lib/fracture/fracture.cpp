@@ -232,9 +232,10 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   return !result.sides.empty();
 }
 
-/// A crack's speed at an edge: the way from the middle of the edge from which it comes, over the time
-/// between both starts. That is the edge with a common node that has cracked first: those at the side
-/// of the tip crack at nearly the same time. Without one the edge is the begin of a crack: slow.
+/// A crack's speed at an edge: the way from the middle of the edge from which it comes, over the
+/// time between both starts. That is the edge with a common node that has cracked first: those at
+/// the side of the tip crack at nearly the same time. Without one the edge is the begin of a crack:
+/// slow.
 void Fracture::raiseEnergies(const Model& model, double now) {
   const std::vector<Vec2>& reference = model.nodes.reference;
   const auto ends = [&](EdgeId edge) {
