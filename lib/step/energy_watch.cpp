@@ -213,11 +213,12 @@ double roundingEnergy(const WorldState& state, int threads) {
 }
 
 void watchEnergy(const StepData& data) {
-  const auto& [state, scratch, exchange, settings] = data;
+  WorldState& state = data.state;
+  const Settings& settings = data.settings;
   EnergyWatch& watch = state.watch;
   const WatchedStep now{
-      state.steps,    state.time,        state.lastDt, state.contact.maxPenetration(),
-      scratch.finest, state.search.halo, state.ledger};
+      state.steps,         state.time,        state.lastDt, state.contact.maxPenetration(),
+      data.scratch.finest, state.search.halo, state.ledger};
   const auto report = [&state](std::string sentence) {
     if (!sentence.empty()) state.warnings.push_back(std::move(sentence));
   };

@@ -93,28 +93,29 @@ void removeUnusedMotions(Model& model) {
 }
 
 void drive(const StepData& data, double dt) {
-  const auto& [state, scratch, exchange, settings] = data;
-  Model& model = state.model;
+  Model& model = data.state.model;
   Nodes& nodes = model.nodes;
   if (nodes.motion.empty()) return;
-  const std::vector<Vec2>& given = exchange.givenVelocities;
+  const std::vector<Vec2>& given = data.exchange.givenVelocities;
+  const std::vector<Vec2>& ofRigid = data.exchange.rigidVelocities;
+  const std::vector<NodeId>& rigidNodes = data.scratch.rigidNodes;
   std::vector<MovedFrame> frames;
   for (const Motion& motion : model.motions) {
     if (motion.isScripted() && given.size() != nodes.size())
       throw RunError(
           "nodes are moved by a function of the script, which a saved file does not have; call "
           "FESolver.prescribe for them again.");
-    frames.emplace_back(motion, state.time + dt);
+    frames.emplace_back(motion, data.state.time + dt);
   }
   const auto rigid = [&](NodeId node) {
-    if (exchange.rigidVelocities.empty()) return Vec2{};
-    const auto at = std::ranges::lower_bound(scratch.rigidNodes, node);
-    return exchange.rigidVelocities[static_cast<std::size_t>(at - scratch.rigidNodes.begin())];
+    if (ofRigid.empty()) return Vec2{};
+    const auto at = std::ranges::lower_bound(rigidNodes, node);
+    return ofRigid[static_cast<std::size_t>(at - rigidNodes.begin())];
   };
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (nodes.motion[n] == 0) continue;
     Vec2& velocity = nodes.velocity[n];
-    scratch.undo.driven.push_back(velocity);
+    data.scratch.undo.driven.push_back(velocity);
     const std::uint32_t m = nodes.motion[n] - 1;
     const std::uint32_t function = model.motions[m].function;
     const Vec2 wanted = function == Motion::kRigid ? rigid(NodeId(n))
