@@ -1,7 +1,7 @@
 """Runs pytest inside the running yade: `scripts/yade -n -x tests/pkg/inside.py [pytest args]`.
 
 Exits with pytest's code. Arguments that name tests are relative to tests/pkg; the folder of a file, also
-../validation/yade, may be left out. Without names, all that take long are left out: those marked `long`. With `--long`
+those of ../validation, may be left out. Without names, all that take long are left out: those marked `long`. With `--long`
 only they are run, and tests/validation/yade. With `--shared FOLDER`, processes that are started with the same empty
 folder run each file once.
 """
@@ -15,7 +15,7 @@ from _pytest.runner import runtestprotocol
 
 
 # They take half a minute or more: begun last, one of them would run alone.
-kLongest = ['test_long_examples.py', 'test_spall_disc.py', 'test_hopkinson_bar.py', 'test_yade_own.py', 'test_memory.py',
+kLongest = ['test_long_examples.py', 'test_axisymmetric_theory.py', 'test_taylor.py', 'test_yade_own.py', 'test_memory.py',
             'test_mpi.py', 'test_same_bits.py', 'test_laws.py', 'test_tradeoff.py', 'test_forms.py', 'test_fe_examples.py']
 
 
@@ -76,7 +76,7 @@ def located(argument):
     file, *test = argument.split('::')
     found = []
     if file.endswith('.py') and not os.path.exists(file):
-        found = glob.glob('*/' + file) + glob.glob('../validation/yade/' + file)
+        found = glob.glob('*/' + file) + glob.glob('../validation/*/' + file)
     return '::'.join(found + test) if found else argument
 
 
