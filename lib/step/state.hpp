@@ -2,10 +2,7 @@
 // Data of the bodies of a scene: what a step continues (WorldState), what it may throw away
 // (Scratch), and what its caller sets before it and reads after it (Settings, Exchange).
 
-#include <cmath>
 #include <cstdint>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
