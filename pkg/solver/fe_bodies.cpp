@@ -106,8 +106,9 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
     for (const auto& one : materials) spec.materials.materials.push_back(bodyMaterialOf(*one));
   if (!spec.selfContact && wholeOf(spec).brittle.cracks())
     throw InputError(
-        "selfContact is False, but the material is a BrittleFEMat or fails, and its fragments must "
-        "touch each other; it must be True, or the material an FEMat.");
+        "selfContact is False, but the body has joints, or a material that cracks or fails, and "
+        "its "
+        "fragments must touch each other; it must be True.");
   const std::vector<CoarseMesh> choices = choicesOf(materials);
   requireApartFromSpheres(here, mesh, spec);
   std::string message = fitToCoarseMesh(mesh, spec, choices);

@@ -97,7 +97,7 @@ ADDED = {
               *[({'material': label, name: lambda x, y: 1}, NOT_ONE) for label in ('m', 'yields')],
               (dict(material='spalls', fractureEnergy=lambda x, y: 0),
                'fractureEnergy is 0 J/m²; it must be positive for every triangle')] for name in ('strength', 'fractureEnergy')},
-    'selfContact': [(dict(material=label, selfContact=False), 'selfContact is False, but the material is a Brittle')
+    'selfContact': [(dict(material=label, selfContact=False), 'selfContact is False, but the body has joints, or a material that cracks')
                     for label in ('fails', 'hard')],
     'joints': [([(0, 0)], r'joints\[0\]\[0\] is 0, it must be a pair of numbers'),
                ([((0, 0), (1, 1), (2, 2))], r'joints\[0\] is .*, it must be a pair of points'),
