@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/arrays.hpp"
-
 namespace yadefrag {
 namespace {
 
@@ -98,21 +96,24 @@ double NodeSum::energy(const ElasticMaterial& material) const {
 }
 
 double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt) {
+  if (!anySmoothed(model)) return 0;
+  std::vector<std::uint32_t> numbers(model.nodes.size());  // of the nodes in `sums`, from 1
   std::vector<NodeId> nodes;
-  for (const ElementId e : elements)
-    if (isSmoothed(model.bodyOf(e)))
-      nodes.insert(nodes.end(), model.triangles.nodes[e.value].begin(),
-                   model.triangles.nodes[e.value].end());
-  sortUnique(nodes);
-  std::vector<NodeSum> sums(nodes.size());
+  std::vector<NodeSum> sums;
   double sum = 0;
   for (const ElementId e : elements) {
     if (!isSmoothed(model.bodyOf(e))) continue;
     NodeSum one;
     one.add(model, e, 1, dt);
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = std::ranges::lower_bound(nodes, model.triangles.nodes[e.value][i]);
-      sums[static_cast<std::size_t>(at - nodes.begin())] += model.massShare(e, i) * one;
+      const NodeId node = model.triangles.nodes[e.value][i];
+      std::uint32_t& number = numbers[node.value];
+      if (number == 0) {
+        nodes.push_back(node);
+        sums.emplace_back();
+        number = static_cast<std::uint32_t>(nodes.size());
+      }
+      sums[number - 1] += model.massShare(e, i) * one;
     }
     sum += twiceOwnEnergy(model, e, dt) / 2;
   }
