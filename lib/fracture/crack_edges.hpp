@@ -4,6 +4,7 @@
 //   An edge that has cracked separates its two triangles. The triangles around a node that are
 //   connected across edges without a crack are its fan: a ring, or a row between two faces.
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
@@ -115,6 +116,20 @@ struct CrackEdges {
 
   /// Appends a node's fan, counter-clockwise; returns true if it is a ring.
   bool appendFan(const Model& model, NodeId node, std::vector<ElementId>& fan) const;
+
+  /// Calls `visit(edge)` for the inner edges at a node, for most of them twice. `fan`: the
+  /// triangles there.
+  template <class Visit>
+  void forEdgesAt(const Model& model, NodeId node, std::span<const ElementId> fan,
+                  Visit visit) const {
+    for (const ElementId triangle : fan) {
+      const int corner = cornerOf(model, triangle, node), before = beforeCorner(corner);
+      for (const int side : {std::min(corner, before), std::max(corner, before)}) {
+        const EdgeId edge = ofElement[triangle.value][static_cast<std::size_t>(side)];
+        if (edge != EdgeId::none()) visit(edge);
+      }
+    }
+  }
 };
 
 /// The node at which a side begins, and the node at which it ends.

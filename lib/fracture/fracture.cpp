@@ -232,41 +232,38 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   return !result.sides.empty();
 }
 
-/// A crack's speed at an edge: the way from the middle of the edge from which it comes, over the
+/// (m/s) Of a crack at an edge: the way from the middle of the edge from which it comes, over the
 /// time between both starts. That is the edge with a common node that has cracked first: those at
 /// the side of the tip crack at nearly the same time. Without one the edge is the begin of a crack:
 /// slow.
-void Fracture::raiseEnergies(const Model& model, double now) {
-  const std::vector<Vec2>& reference = model.nodes.reference;
-  const auto ends = [&](EdgeId edge) {
-    const Side side = edges.side(edge, 0);
+double Fracture::speedAt(const Model& model, EdgeId edge, double now) const {
+  const auto ends = [&](EdgeId of) {
+    const Side side = edges.side(of, 0);
     return std::array{firstNode(model, side), lastNode(model, side)};
   };
-  const auto middle = [&](EdgeId edge) {
-    const auto [a, b] = ends(edge);
-    return .5 * (reference[a.value] + reference[b.value]);
+  const auto middle = [&](EdgeId of) {
+    const auto [a, b] = ends(of);
+    return .5 * (model.nodes.reference[a.value] + model.nodes.reference[b.value]);
   };
+  double since = now;
+  EdgeId from;
   std::vector<ElementId> fan;
+  for (const NodeId node : ends(edge)) {
+    fan.clear();
+    edges.appendFan(model, node, fan);
+    edges.forEdgesAt(model, node, fan, [&](EdgeId other) {
+      const double start = other.value < started.size() ? started[other.value] : -1;
+      if (start >= 0 && start < since) since = start, from = other;
+    });
+  }
+  return since < now ? norm(middle(edge) - middle(from)) / (now - since) : 0;
+}
+
+void Fracture::raiseEnergies(const Model& model, double now) {
   for (const EdgeId edge : cracks_) {
     const auto [first, second] = edges.element[edge.value];
     const RateEffect& effect = materialBetween(model, first, second).brittle.speed;
-    if (!effect.isOn()) continue;
-    double since = now;
-    EdgeId from;
-    for (const NodeId node : ends(edge)) {
-      fan.clear();
-      edges.appendFan(model, node, fan);
-      for (const ElementId element : fan)
-        for (const EdgeId other : edges.ofElement[element.value]) {
-          if (other == EdgeId::none() || other.value >= started.size()) continue;
-          const double start = started[other.value];
-          const auto [a, b] = ends(other);
-          if (start < 0 || start >= since || (a != node && b != node)) continue;
-          since = start, from = other;
-        }
-    }
-    const double speed = since < now ? norm(middle(edge) - middle(from)) / (now - since) : 0;
-    edges.fractureEnergy[edge.value] *= effect.factor(speed);
+    if (effect.isOn()) edges.fractureEnergy[edge.value] *= effect.factor(speedAt(model, edge, now));
   }
 }
 

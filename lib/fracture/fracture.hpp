@@ -93,6 +93,7 @@ class Fracture {
   Cohesion cohesion;
 
  private:
+  [[nodiscard]] double speedAt(const Model& model, EdgeId edge, double now) const;
   void raiseEnergies(const Model& model, double now);
 
   StrengthCheck check_;

@@ -25,13 +25,9 @@ bool haveSeveralMaterials(const Model& model, std::span<const ElementId> element
 template <class Visit>
 void forWholeEdges(const Model& model, const CrackEdges& edges, std::span<const ElementId> fan,
                    NodeId node, Visit visit) {
-  for (const ElementId element : fan) {
-    const int corner = cornerOf(model, element, node);
-    for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
-      const EdgeId edge = edges.ofElement[element.value][static_cast<std::size_t>(side)];
-      if (edge != EdgeId::none() && edges.cracked[edge.value] == 0) visit(edge);
-    }
-  }
+  edges.forEdgesAt(model, node, fan, [&](EdgeId edge) {
+    if (edges.cracked[edge.value] == 0) visit(edge);
+  });
 }
 
 /// Of both ends of an edge.

@@ -98,6 +98,25 @@ std::vector<Point> pointsOf(const std::vector<double>& table) {
   return points;
 }
 
+/// The law of a choice of which only "none" is a name, or of its points. `words`: of these.
+template <class Law>
+Law noneOf(const char* attribute, std::string_view name, const char* words) {
+  if (name == "none") return {};
+  throw InputError(fmt::format("{} is '{}'; it must be 'none', or a list of points ({}).",
+                               attribute, name, words));
+}
+
+void requirePoints(const char* attribute, const std::vector<double>& table, const char* least) {
+  if (table.empty())
+    throw InputError(fmt::format("{} has no points; it must have at least {}.", attribute, least));
+}
+
+RateEffect rateEffectOf(const char* attribute, const std::vector<double>& table,
+                        const RateWords& words) {
+  requirePoints(attribute, table, "two");
+  return RateEffect(pointsOf<RatePoint>(table), words);
+}
+
 }  // namespace
 
 std::string shownText(const std::string& text) {
@@ -110,32 +129,24 @@ SofteningCurve SofteningChoice::law() const {
 }
 
 RateEffect RateChoice::law() const {
-  if (!name.empty()) return named(name);
-  if (table.empty()) throw InputError("rateEffect has no points; it must have at least two.");
-  return RateEffect(pointsOf<RatePoint>(table));
+  return name.empty() ? rateEffectOf(kAttribute, table, kStrainRate) : named(name);
 }
 
 RateEffect SpeedChoice::named(std::string_view name) {
-  if (name == "none") return {};
-  throw InputError("speedEffect is '" + std::string(name) +
-                   "'; it must be 'none', or a list of points (speed of the crack, factor).");
+  return noneOf<RateEffect>(kAttribute, name, "speed of the crack, factor");
 }
 
 RateEffect SpeedChoice::law() const {
-  if (!name.empty()) return named(name);
-  if (table.empty()) throw InputError("speedEffect has no points; it must have at least two.");
-  return RateEffect(pointsOf<RatePoint>(table), kCrackSpeed);
+  return name.empty() ? rateEffectOf(kAttribute, table, kCrackSpeed) : named(name);
 }
 
 HardeningChoice::Table HardeningChoice::named(std::string_view name) {
-  if (name == "none") return {};
-  throw InputError("hardeningTable is '" + std::string(name) +
-                   "'; it must be 'none', or a list of points (plastic strain, yield stress).");
+  return noneOf<Table>(kAttribute, name, "plastic strain, yield stress");
 }
 
 HardeningChoice::Table HardeningChoice::law() const {
   if (!name.empty()) return named(name);
-  if (table.empty()) throw InputError("hardeningTable has no points; it must have at least one.");
+  requirePoints(kAttribute, table, "one");
   PlasticMaterial material;
   material.table = pointsOf<HardeningPoint>(table);
   if (const std::string wrong = material.wrong(); !wrong.empty()) throw InputError(wrong);

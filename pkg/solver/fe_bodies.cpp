@@ -107,8 +107,7 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   if (!spec.selfContact && wholeOf(spec).brittle.cracks())
     throw InputError(
         "selfContact is False, but the body has joints, or a material that cracks or fails, and "
-        "its "
-        "fragments must touch each other; it must be True.");
+        "its fragments must touch each other; it must be True.");
   const std::vector<CoarseMesh> choices = choicesOf(materials);
   requireApartFromSpheres(here, mesh, spec);
   std::string message = fitToCoarseMesh(mesh, spec, choices);

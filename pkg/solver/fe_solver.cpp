@@ -89,8 +89,7 @@ void FESolver::stepWorld() {
   const std::size_t known = world_.warnings.size();
   const double given = scene->dt;
   try {
-    while (!isStepDone(given)) {
-    }
+    for (bool isDone = false; !isDone;) isDone = tryStep(given);
   } catch (const TimeStepError& error) {
     throw std::invalid_argument("O.dt: " + std::string(error.what()) + byTimeStepper(*scene));
   } catch (const InputError& error) {
@@ -102,7 +101,7 @@ void FESolver::stepWorld() {
 
 /// False if O.dt was reduced: where bodies yield, flow presses triangles flat until their own
 /// stiffness stops them. `given` (s): O.dt before.
-bool FESolver::isStepDone(double given) try {
+bool FESolver::tryStep(double given) try {
   world_.step(scene->dt);
   return true;
 } catch (const FlatError& error) {

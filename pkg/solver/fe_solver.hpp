@@ -143,7 +143,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void collectForces();
   void followFlow();
   void reportFlowStep();
-  bool isStepDone(double given);
+  bool tryStep(double given);
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
   [[nodiscard]] std::string overlapWithSphere(std::size_t first) const;
