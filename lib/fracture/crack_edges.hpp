@@ -123,8 +123,8 @@ struct CrackEdges {
   void forEdgesAt(const Model& model, NodeId node, std::span<const ElementId> fan,
                   Visit visit) const {
     for (const ElementId triangle : fan) {
-      const int corner = cornerOf(model, triangle, node), before = beforeCorner(corner);
-      for (const int side : {std::min(corner, before), std::max(corner, before)}) {
+      const int at = cornerOf(model, triangle, node), before = beforeCorner(at);
+      for (const int side : {std::min(at, before), std::max(at, before)}) {
         const EdgeId edge = ofElement[triangle.value][static_cast<std::size_t>(side)];
         if (edge != EdgeId::none()) visit(edge);
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "core/lanes.hpp"
 #include "loop/contact_law.hpp"
 
 namespace yadefrag {
@@ -98,13 +99,13 @@ class HertzMindlin {
 
   [[gnu::always_inline]] FourLanes elasticNormal(const ContactGeometry& geometry,
                                                  Phys& phys) const {
-    // As YADE: products with a square root have other bits.
-    double size = phys.kno * std::pow(geometry.depth, 1.5);
+    // YADE calls std::pow: products with a square root have other bits.
+    const auto [root, threeHalves] = halfPowersOf(geometry.depth);
+    double size = phys.kno * threeHalves;
     if (functor_.includeAdhesion) {
       size -= phys.adhesionForce;
       phys.isAdhesive = size < 0;
     }
-    const double root = std::pow(geometry.depth, .5);
     phys.kn = 3. / 2. * phys.kno * root;
     phys.ks = phys.kso * root;
     return size * geometry.normal;

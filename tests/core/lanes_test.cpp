@@ -4,12 +4,14 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <new>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "core/checks.hpp"
 #include "core/four_lanes.hpp"
@@ -138,6 +140,27 @@ TEST(LaneMath, Powers) {
 }
 
 constexpr std::size_t kManyItems = 8 * tolerance::kMinItemsPerThread;
+
+TEST(LaneMath, HalfPowersHaveTheBitsOfPow) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> exponents(-110, 110);
+  std::vector<double> all{0., -0., -1., 5e-324, 1e-320, 1e-100, 1., 2., 4., 1e100, 1e300, INFINITY};
+  for (int i = 0; i < 200000; ++i) all.push_back(std::pow(10, exponents(random)));
+  for (int i = 0; i < 1000; ++i) {  // squares, cubes and their neighbours: exact or nearly so
+    const double whole = 1 + i;
+    for (const double x : {whole * whole, std::nextafter(whole * whole, 0.)}) all.push_back(x);
+  }
+  for (const double x : all) {
+    const HalfPowers powers = halfPowersOf(x);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(powers.root),
+              std::bit_cast<std::uint64_t>(std::pow(x, .5)))
+        << x;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(powers.threeHalves),
+              std::bit_cast<std::uint64_t>(std::pow(x, 1.5)))
+        << x;
+  }
+  EXPECT_TRUE(std::isnan(halfPowersOf(NAN).root) && std::isnan(halfPowersOf(NAN).threeHalves));
+}
 
 TEST(Parallel, PartsCoverTheRange) {
   for (const int threads : {1, 2, 3, 8}) {

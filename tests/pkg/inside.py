@@ -3,7 +3,7 @@
 Exits with pytest's code. Arguments that name tests are relative to tests/pkg; the folder of a file, also
 those of ../validation, may be left out. Without names, all that take long are left out: those marked `long`. With `--long`
 only they are run, and tests/validation/yade. With `--shared FOLDER`, processes that are started with the same empty
-folder run each file once.
+folder run each file once. YADEFRAG_SHARE=2/3 runs the second of three shares of the tests.
 """
 import glob
 import os
@@ -71,6 +71,19 @@ class Long:
         items[:] = parts[self.only]
 
 
+class Share:
+    """Pytest plugin: of the tests that are left the share `2/3`."""
+
+    def __init__(self, share):
+        self.number, self.count = map(int, share.split('/'))
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, config, items):
+        mine = items[self.number - 1::self.count]
+        config.hook.pytest_deselected(items=[item for item in items if item not in mine])
+        items[:] = mine
+
+
 def located(argument):
     """The argument, with the folder of the file of tests that it names."""
     file, *test = argument.split('::')
@@ -101,6 +114,8 @@ def main():
         plugins.append(Long(only))
     if not named:
         arguments.append(here)
+    if 'YADEFRAG_SHARE' in os.environ:
+        plugins.append(Share(os.environ['YADEFRAG_SHARE']))
     options = ['-q', '-o', 'markers=long: takes long', '-p', 'no:cacheprovider', '--rootdir', os.path.dirname(here), '--durations=20',
                '--durations-min=10',
                # A test that hangs ends the process with the stacks of its threads.

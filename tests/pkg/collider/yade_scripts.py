@@ -217,7 +217,7 @@ def runUnit(swap, names):
 class Leash:
     """Lets an example run a number of steps in all, in the foreground, then ends it.
 
-    On the way it notes the contacts and positions at some `moments`, dense at first: later, two
+    On the way it notes contacts, positions, forces and kinetic energy at some `moments`, dense at first: later, two
     runs of a dense scene part by rounding alone.
     """
 
@@ -242,7 +242,8 @@ class Leash:
             self.steps = until
             if until == self.next:
                 self.next = until + max(1, min(8, until // 3))
-                self.moments.append(dict(step=until, contacts=contacts(), positions=positions()))
+                self.moments.append(dict(step=until, contacts=contacts(), positions=positions(), forces=forces(),
+                                         kinetic=yade.utils.kineticEnergy()))
         if self.steps >= self.limit:
             raise Enough
 
@@ -281,6 +282,18 @@ def positions():
     return [tuple(b.state.pos) for b in O.bodies]
 
 
+def forces():
+    O.forces.f(0, sync=True)   # adds up those of threads
+    return [tuple(O.forces.f(b.id)) for b in O.bodies]
+
+
+def laws():
+    """Names of the laws of the loops, and how many contacts each has."""
+    loops = [e for e in O.engines if isinstance(e, w.InteractionLoop)]
+    names = sorted({type(law).__name__ for loop in loops for law in loop.lawDispatcher.functors})
+    return names, len(O.interactions), [(e.fastGeometries, e.fastForces) for e in loops if hasattr(e, 'fastForces')]
+
+
 def radius():
     """A typical length of the bodies: the median radius of the spheres, 1 without any."""
     radii = sorted(b.shape.radius for b in O.bodies if isinstance(b.shape, w.Sphere))
@@ -302,7 +315,7 @@ def runExamples(swap, names, scope):
         os.chdir(os.path.dirname(path))
         error = execute(path, scope) or leash.finish()
         os.chdir(home)
-        report(path, swap, before, started, error=error, radius=radius(), moments=leash.moments)
+        report(path, swap, before, started, error=error, radius=radius(), laws=laws(), moments=leash.moments)
 
 
 def main(scope):
