@@ -33,7 +33,7 @@ import codes_others  # noqa: E402
 import measured_tables  # noqa: E402
 from measured_tables import digits  # noqa: E402
 
-SCENES = ['gas', 'packing', 'polydisperse', 'stirred', 'hopper']
+SCENES = ['gas', 'packing', 'mindlin', 'polydisperse', 'stirred', 'hopper']
 ENGINES = {  # collider, loop, integrator
     'YADE': ('InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'collider': ('LebesgueCollider', 'InteractionLoop', 'NewtonIntegrator'),

@@ -1,8 +1,9 @@
 """LAMMPS and LIGGGHTS, Debian's, for codes.py: the scene that codes_yade.py wrote, as their input; times and positions.
 
-YADE's law in the words of LAMMPS: gran/hooke/history with the same stiffness along and across a contact, no
-damping, and the same coefficient of friction. Debian's LAMMPS has no OPENMP package: threads are MPI processes.
-LIGGGHTS's model hooke/stiffness with the tangential model history is YADE's law. Facets are a mesh in an STL file.
+YADE's laws in the words of LAMMPS: gran/hooke/history, gran/hertz/history with the same stiffness along and across a
+contact, no damping, and the same coefficient of friction. Debian's LAMMPS has no OPENMP package: threads are MPI
+processes. LIGGGHTS's models hooke/stiffness and hertz with the tangential model history are YADE's laws. Facets are a
+mesh in an STL file.
 """
 import json
 import math
@@ -69,7 +70,7 @@ def lammpsScript(arrays, about, warm, steps):
     most = int(kinds(arrays, about).max())
     law = f'{about["kn"]!r} {about["kt"]!r} 0 0 {about["friction"]!r} 0'
     lines = ['units si', 'atom_style sphere', 'newton on', 'boundary s s s', 'read_data data', *groups(arrays),
-             f'pair_style gran/hooke/history {law}', 'pair_coeff * *',
+             f'pair_style gran/{about["law"]}/history {law}', 'pair_coeff * *',
              f'neighbor {SKIN * about["radius"]!r} ' + ('multi' if most > 1 else 'bin'),
              'comm_modify vel yes' + ' mode multi' * (most > 1),
              'neigh_modify delay 0 every 1 check yes page 1000000 one 100000', f'timestep {about["dt"]!r}',
@@ -130,14 +131,20 @@ def liggghtsScript(arrays, about, warm, steps):
     """LIGGGHTS's input."""
     most = int(kinds(arrays, about).max())
     of = lambda value: f'peratomtypepair {most} ' + ' '.join([repr(value)] * most ** 2)  # noqa: E731
-    model = 'model hooke/stiffness tangential history'
+    isHertz = about['law'] == 'hertz'
+    model = f'model {"hertz" if isHertz else "hooke/stiffness"} tangential history'
+    # Restitution 1: no damping.
+    constants = [f'fix kn all property/global kn {of(about["kn"])}', f'fix kt all property/global kt {of(about["kt"])}',
+                 f'fix gamman all property/global gamman {of(0.)}', f'fix gammat all property/global gammat {of(0.)}']
+    if isHertz:
+        constants = [f'fix young all property/global youngsModulus peratomtype {about["young"]!r}',
+                     f'fix poisson all property/global poissonsRatio peratomtype {about["poisson"]!r}',
+                     f'fix restitution all property/global coefficientRestitution {of(1.)}']
     lines = ['units si', 'atom_style granular', 'atom_modify map array', 'newton off', 'communicate single vel yes',
              'boundary s s s', 'read_data data', *groups(arrays),
              f'neighbor {SKIN * about["radius"]!r} bin',  # `multi` misses contacts of spheres of two types
              'neigh_modify delay 0 every 1 check yes page 1000000 one 100000',
-             f'fix kn all property/global kn {of(about["kn"])}', f'fix kt all property/global kt {of(about["kt"])}',
-             f'fix gamman all property/global gamman {of(0.)}', f'fix gammat all property/global gammat {of(0.)}',
-             f'fix friction all property/global coefficientFriction {of(about["friction"])}',
+             *constants, f'fix friction all property/global coefficientFriction {of(about["friction"])}',
              f'pair_style gran {model}', 'pair_coeff * *', f'timestep {about["dt"]!r}']
     if 'facets' in about:
         lines += ['fix hopper all mesh/surface file facets.stl type 1',

@@ -92,9 +92,15 @@ def writeStart(settings, parts, places, velocities, spins):
     np.savez(os.path.join(folder, 'start.npz'), places=places, velocities=velocities, spins=spins, bar=bar,
              radii=[body.shape.radius for body in spheres],
              fixed=np.array([body.state.blockedDOFs == 'xyzXYZ' for body in spheres]))
-    about = dict(dt=O.dt, kn=STIFFNESS, kt=POISSON * STIFFNESS, friction=float(np.tan(settings['friction'])),
+    material = O.materials[0]
+    about = dict(dt=O.dt, kn=STIFFNESS, kt=POISSON * STIFFNESS, law='hooke', young=material.young, poisson=material.poisson, friction=float(np.tan(settings['friction'])),
                  density=scenes.DENSITY, radius=scenes.RADIUS, gravity=-parts['newton'].get('gravity', (0, 0, 0))[2],
                  turn=parts['turning'].angularVelocity if 'turning' in parts else 0)
+    if settings['scene'] == 'mindlin':
+        # Both codes: F = kn √R δ^1.5, R = R1 R2 / (R1 + R2).
+        contact = next(i.phys for i in O.interactions if i.isReal)
+        root = np.sqrt(scenes.RADIUS / 2)
+        about.update(law='hertz', kn=contact.kno / root, kt=contact.kso / root)
     if settings['scene'] == 'hopper':
         about['walls'] = [part.tolist() for part in scenes.walls()]
         about['facets'] = [[list(body.state.pos + corner) for corner in body.shape.vertices]

@@ -1,6 +1,7 @@
 """Scenes for codes_yade.py, built inside yade from a seed.
 
 gas, packing, polydisperse   spheres alone
+mindlin   a block as in `packing`, with the law of Hertz and Mindlin
 stirred   a block as in `packing`: its outermost spheres are fixed, and a bar of spheres through its middle turns
 hopper    an inverted pyramid of facets, filled with spheres, which leave through its open end
 
@@ -24,7 +25,8 @@ from yade.minieigenHP import Vector3
 from yade.utils import facet
 from yade.wrapper import (
     Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Body, FrictMat, Ig2_Facet_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
-    Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, RotationEngine, Sphere)
+    Ip2_FrictMat_FrictMat_FrictPhys, Ip2_FrictMat_FrictMat_MindlinPhys, Law2_ScGeom_FrictPhys_CundallStrack,
+    Law2_ScGeom_MindlinPhys_Mindlin, RotationEngine, Sphere)
 
 RADIUS = 1e-3  # m
 DENSITY = 2600.0  # kg/m3
@@ -64,6 +66,14 @@ def packing(n, seed):
     _addSpheres(rng, positions, np.full(n, RADIUS), velocities, _material(1e7),
                 np.where(skin, 'xyzXYZ', ''))
     return _parts(1e7, damping=.2)
+
+
+def mindlin(n, seed):
+    """As `packing`; young 100 MPa."""
+    parts = packing(n, seed)
+    O.materials[0].young = 1e8
+    return {**parts, 'phys': [Ip2_FrictMat_FrictMat_MindlinPhys()], 'law': [Law2_ScGeom_MindlinPhys_Mindlin()],
+            'dt': _timeStep(1e8)}
 
 
 def polydisperse(n, seed, ratio=20.):
@@ -165,11 +175,15 @@ def _material(young):
     return material
 
 
+def _timeStep(young):
+    return .3 * RADIUS * math.sqrt(DENSITY / young)
+
+
 def _parts(young, damping):
     return dict(bound=[Bo1_Sphere_Aabb()], geom=[Ig2_Sphere_Sphere_ScGeom()],
                 phys=[Ip2_FrictMat_FrictMat_FrictPhys()],
                 law=[Law2_ScGeom_FrictPhys_CundallStrack()], newton=dict(damping=damping),
-                dt=.3 * RADIUS * math.sqrt(DENSITY / young))
+                dt=_timeStep(young))
 
 
 def _sphere(position, radius, velocity, material, blocked=''):
