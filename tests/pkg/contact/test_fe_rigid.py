@@ -2,13 +2,12 @@
 bodies that come and go."""
 import builtins
 import math
-import os
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, impact, newBall, O, ready, run, steps
+from fe_scene import fe, finder, impact, newBall, O, ready, run, solverOfScene, steps
 from yade import utils, wrapper as w
 from yade.minieigenHP import Quaternion
 
@@ -31,11 +30,9 @@ def facet(a, b, height=1, **settings):
     return utils.facet([(*a, height), (*a, -height), (*b, 0)], **settings)
 
 
-def block(solver, low=(0, 0), size=.1, mesh=.025, velocity=(0, 0), angle=0, name=None, **settings):
-    """A square on its lower left corner, turned by `angle` about that."""
-    c, s = math.cos(angle), math.sin(angle)
-    corners = [(low[0] + c * x - s * y, low[1] + s * x + c * y) for x, y in yadefrag.rectangle((0, 0), (size, size))]
-    return solver.addPolygon(corners, size=mesh, material='m', velocity=velocity, name=name, **settings)
+def block(solver, low=(0, 0), size=.1, mesh=.025, **settings):
+    """A square on its lower left corner."""
+    return solver.addPolygon(yadefrag.rectangle(low, (low[0] + size, low[1] + size)), size=mesh, material='m', **settings)
 
 
 def onSurface(make, smooth=False, **settings):
@@ -224,7 +221,7 @@ def test_damagedFileIsRefused(ending, damage, folder):
     """A body that is moved in the file must not overlap others undetected."""
     solver = impact('LebesgueCollider')
     steps(20)
-    path = os.path.join(folder, 'scene' + ending)
+    path = folder + '/scene' + ending
     O.save(path)
     nodes = solver.nodes
     with open(path, 'rb') as file:
@@ -242,8 +239,7 @@ def test_damagedFileIsRefused(ending, damage, folder):
     with open(path, 'wb') as file:
         file.write(data)
     O.load(path)
-    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
-    assert np.array_equal(solver.nodes, nodes)
+    assert np.array_equal(solverOfScene().nodes, nodes)
     steps(3)
 
 

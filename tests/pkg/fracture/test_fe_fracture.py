@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import (brittle, brittleImpact, fe, heapSpheres, kineticEnergy, momentum, O, ready,
+from fe_scene import (bodyOf, brittle, brittleImpact, heapSpheres, kineticEnergy, momentum, O, ready,
                       requireBodiesAreEntries, steps, throwBall)
 from yade import utils, wrapper as w
 from yadefrag.plots import pictures
@@ -300,10 +300,10 @@ def test_picturesLeaveThemOut(folder):
 def test_contactsOfASphereWithWhatGoesLeaveWithIt(young):
     """A fragment that a sphere presses on takes along the elastic energy of their contacts, and what is then
     exposed below the sphere begins no contact at once."""
-    solver = fe(w.BrittleFEMat(young=5e8, poisson=.2, density=2000, frictionAngle=.4, tensileStrength=2e5,
-                               weibullModulus=6, seed=5, label='plate'), minFragmentArea=3e-4)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .05)), size=.02, material='plate', thickness=.06,
-                      fixed=lambda x, y: x < 1e-9 or x > .4999)
+    solver = bodyOf(yadefrag.rectangle((0, 0), (.5, .05)), .02,
+                    w.BrittleFEMat(young=5e8, poisson=.2, density=2000, frictionAngle=.4, tensileStrength=2e5,
+                                   weibullModulus=6, seed=5), dict(minFragmentArea=3e-4), thickness=.06,
+                    fixed=lambda x, y: x < 1e-9 or x > .4999)
     ball = throwBall((.25, .081), .03, (0, -20), w.FrictMat(young=young, poisson=.2, density=4000, frictionAngle=.4))
     impactEnergy = .5 * ball.state.mass * 20**2
     ready(solver, .3, spheres=True)
