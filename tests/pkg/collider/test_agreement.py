@@ -93,15 +93,14 @@ def testFarAway(collider):
 kSteps = 30
 
 
-def realAtEachStep(makeCollider, build, steps=kSteps, **attributes):
-    """[set of real pairs] per step, of the scene that `build(rng)` makes."""
+def realAtEachStep(makeCollider, build, seed=1, **attributes):
+    """[set of real pairs] per step, of the scene that `build(rng)` makes; ids are those of both runs."""
     scenes.clear()
     O.dt = 1
-    more = build(np.random.default_rng(1)) or {}
-    functors = more.pop('functors', None)
-    setEngines(makeCollider(functors, **attributes), *more.pop('engines', ()), **more)
+    more = build(np.random.default_rng(seed)) or {}
+    setEngines(makeCollider(more.pop('functors', None), **attributes), *more.pop('engines', ()), **more)
     history = []
-    for _ in range(steps):
+    for _ in range(kSteps):
         O.step()
         history.append(set(scenes.realPairs()))
     return history

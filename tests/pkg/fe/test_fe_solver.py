@@ -100,14 +100,6 @@ def test_functionsOfPlace():
     assert (solver.velocities[bottom, 1] != 0).any()
 
 
-def test_addTriangles():
-    solver = fe()
-    nodes, triangles = yadefrag.rectangleMesh((0, 0), (2, 1), 8, 4)
-    assert solver.addTriangles(nodes, triangles, material='m') == 0
-    assert np.array_equal(solver.nodes, nodes) and np.array_equal(solver.triangles, triangles)
-    assert len(O.bodies) == 24
-
-
 def test_clockwiseOutlineKeepsItsFlags():
     kinds = []
     for order in (1, -1):
