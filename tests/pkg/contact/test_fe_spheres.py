@@ -43,13 +43,7 @@ def test_sphereOnABodyKeepsMomentum(smooth, friction, varying):
         ledger = solver.energy
         work = .5 * ball.state.mass * ball.state.vel.squaredNorm()
         assert ledger['kinetic'] + ledger['strain'] + work == pytest.approx(energy, rel=.01)
-    assert ledgerHolds(solver)
-
-
-def ledgerHolds(solver):
-    e = solver.energy
-    return e['total'] == pytest.approx(e['kinetic'] + e['strain'] - e['external'], abs=1e-12) \
-        and e['external'] > 0
+    assert solver.energy['external'] > 0  # the sum of all: test_fe_scene_check.py
 
 
 def test_forceOnAPieceGoesToItsNodes():

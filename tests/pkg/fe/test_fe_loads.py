@@ -304,21 +304,6 @@ def test_balanceIsRecorded(tmp_path):
     assert float(rows[-1].split(',')[place]) == pytest.approx(wanted['scene'], abs=1e-3 * abs(wanted['outside']))
 
 
-def test_externalIsAnAlias():
-    solver = fe(gravity=(0, -G))
-    block(solver, fixed=None)
-    run(solver)
-    O.run(10, True)
-    energy = solver.energy
-    assert energy['external'] == -energy['outside'] > 0 and energy.get('external') == energy['external']
-    assert 'external' in energy and 'external' not in list(energy)
-    assert builtins.sum(value for name, value in energy.items() if name != 'total') == \
-        pytest.approx(energy['total'], abs=1e-12)
-    with pytest.raises(KeyError):
-        energy['nothing']
-    assert energy.get('nothing', 3) == 3 and not math.isnan(energy['total'])
-
-
 def test_bodiesWithoutTheirEngineAreReported():
     solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .5)
     O.engines, O.dt = [w.ForceResetter()], 1e-6

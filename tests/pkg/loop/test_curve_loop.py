@@ -105,8 +105,7 @@ def test_callbacksAndSortedLists(isSorted):
 def test_isALoop():
     """YADE's functions find it; wrong arguments are refused as by YADE."""
     loop, _ = run('CurveLoop', kFunctors['friction'](), 4)
-    assert isinstance(loop, w.InteractionLoop) and utils.typedEngine('InteractionLoop') is not None
-    assert utils.typedEngine('InteractionLoop') == loop
+    assert isinstance(loop, w.InteractionLoop) and utils.typedEngine('InteractionLoop') == loop
     with pytest.raises(Exception, match='Exactly 3 lists of functors'):
         w.CurveLoop([])
     with pytest.raises(AttributeError):

@@ -3,7 +3,6 @@
 docs/data/taylor.csv, a table of docs/materials.md, has the measured lengths and feet (mm), and those computed with the
 constants of that page, without friction and with a coefficient of .1, which those who measured do not state.
 """
-import pathlib
 import re
 import sys
 
@@ -13,8 +12,8 @@ from yade import utils
 from yadefrag import PlasticFEMat, rectangle
 from axis_scene import body, O, untilTime
 from fe_scene import ready
+from project import ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / 'tests' / 'benchmark'))
 import measured_tables  # noqa: E402
 
