@@ -1,5 +1,6 @@
 """The same scene with YADE's collider and with ours: bit-identical where the order of summation cannot matter (where it
-can: test_lifecycle.py). Bodies other than spheres: the real contacts that YADE's collider has when it runs every step."""
+can: test_lifecycle.py). Bodies other than spheres: the real contacts that YADE's collider has when it runs every
+step."""
 import numpy as np
 import pytest
 import yade.wrapper as w

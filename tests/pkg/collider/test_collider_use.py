@@ -78,8 +78,8 @@ def testReplaceCollider(collider):
 
 
 def testAttributeNames(collider):
-    """Every attribute that InsertionSortCollider has, with the same default; how they are given, read and set: test_about.py,
-    test_forms.py. A class may have defaults of its own for how far and how often it searches."""
+    """Every attribute that InsertionSortCollider has, with the same default; how they are given, read and set:
+    test_about.py, test_forms.py. A class may have defaults of its own for how far and how often it searches."""
     values, ours = w.InsertionSortCollider().dict(), collider().dict()
     own = {'boundDispatcher', 'numReinit', 'targetInterv', 'minSweepDistFactor'}
     assert set(values) <= set(ours) and {name for name in values if ours[name] != values[name]} <= own

@@ -32,7 +32,8 @@ def facet(a, b, height=1, **settings):
 
 def block(solver, low=(0, 0), size=.1, mesh=.025, **settings):
     """A square on its lower left corner."""
-    return solver.addPolygon(yadefrag.rectangle(low, (low[0] + size, low[1] + size)), size=mesh, material='m', **settings)
+    high = low[0] + size, low[1] + size
+    return solver.addPolygon(yadefrag.rectangle(low, high), size=mesh, material='m', **settings)
 
 
 def onSurface(make, smooth=False, **settings):

@@ -142,7 +142,8 @@ def test_copperCylinderOnAWall():
 
 def discs(element='linear'):
     """Two discs on the axis, one of which hits the other, and a ring around them."""
-    fe = body(FEMat(young=1e9, poisson=.3, density=1000, frictionAngle=.3), rectangle((0, 0), (.1, .04)), .01, element=element)
+    fe = body(FEMat(young=1e9, poisson=.3, density=1000, frictionAngle=.3), rectangle((0, 0), (.1, .04)), .01,
+              element=element)
     fe.addPolygon(rectangle((0, .0405), (.06, .08)), size=.012, material=0, velocity=(0, -20), element=element)
     fe.addPolygon(rectangle((.102, -.01), (.12, .03)), size=.01, material=0, velocity=(-5, 0), element=element)
     ready(fe, .5)
@@ -198,8 +199,8 @@ def test_ringsCrackIntoRings():
 def test_initialStressAroundTheAxisIsInEquilibrium():
     """Even pressure in space, with a pressure on the boundary: at rest, also on the axis."""
     for yields in (False, True):
-        fe = body(PlasticFEMat(**STEEL, yieldStress=1e9) if yields else FEMat(**STEEL), rectangle((0, 0), (.1, .1)), .02,
-                  element='linear', stress=(-1e8, -1e8, 0, -1e8))
+        steel = PlasticFEMat(**STEEL, yieldStress=1e9) if yields else FEMat(**STEEL)
+        fe = body(steel, rectangle((0, 0), (.1, .1)), .02, element='linear', stress=(-1e8, -1e8, 0, -1e8))
         fe.pressure(numpy.arange(len(fe.nodes)), 1e8)
         ready(fe, .5)
         assert fe.stressZ == pytest.approx(numpy.full(len(fe.triangles), -1e8), rel=1e-8)

@@ -151,8 +151,9 @@ def test_pressureEntersCracksThatTransmitNoTraction():
 
 def test_pressureStaysOutOfCracksThatDoNotReachIt():
     """Of a crack within a body, and on the far side of one that pressure has not come to."""
-    solver = bodyOf(yadefrag.rectangle((0, 0), (1, .4)), .05, w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5),
-                    jointStrength=1e3, jointEnergy=0, joints=[((.5, .1), (.5, .3))], velocity=lambda x, y: (.2 * (x - .5), 0))
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, .4)), .05,
+                    w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5), jointStrength=1e3, jointEnergy=0,
+                    joints=[((.5, .1), (.5, .3))], velocity=lambda x, y: (.2 * (x - .5), 0))
     run(solver, factor=.5)
     solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=True)
     while solver.numCracks < 4:

@@ -163,7 +163,8 @@ def test_energiesOfTheSceneHaveTheSolversSigns():
     O.trackEnergy = True
     steps(40)
     own, scenes = solver.energy, O.energy
-    assert own['outside'] == -own['external'] < 0 and own.get('external') == own['external'] and own.get('nothing', 3) == 3
+    assert own['outside'] == -own['external'] < 0
+    assert own.get('external') == own['external'] and own.get('nothing', 3) == 3
     assert 'external' in own and 'external' not in list(own)  # an alias
     with pytest.raises(KeyError):
         own['nothing']

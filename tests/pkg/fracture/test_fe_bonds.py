@@ -241,7 +241,8 @@ def concrete(**more):
 def test_anEffectMultipliesWhatAnEdgeHas():
     """Strength by place, scatter, and that of a joint."""
     fe = bodyOf(yadefrag.rectangle((0, 0), (kConcreteLength, kConcreteHeight)), .005,
-                concrete(rateEffect=[(1e-3, 2), (1e3, 2)], strengthScatter=.1), strength=lambda x, y: kConcreteStrength / 2,
+                concrete(rateEffect=[(1e-3, 2), (1e3, 2)], strengthScatter=.1),
+                strength=lambda x, y: kConcreteStrength / 2,
                 joints=[((kConcreteLength / 2, -1), (kConcreteLength / 2, 1))], jointStrength=kConcreteStrength / 4,
                 jointEnergy=kConcreteEnergy, velocity=lambda x, y: (50 * x, 0),
                 fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)

@@ -224,11 +224,7 @@ def test_jointsWithoutToleranceAreAsGiven():
 
 
 def test_theAdviceForAnOutlineIsMeasured():
-    """simplify= helps against a vertex too many, nothing helps against a thin web."""
-    solver = solverOf()
-    step = [(0, 0), (.5, 0), (.501, 0), (1, 0), (1, 1), (0, 1)]
-    with pytest.warns(UserWarning, match=r'simplify=0.03 reduces that to'):
-        solver.addPolygon(step, size=.1, material='m')
+    """Nothing helps against a thin web; simplify= against vertices too many: test_mesh_object.py."""
     web = yadefrag.rectangle((0, 0), (1, 1)), [yadefrag.rectangle((.4, .4), (.9985, .6))]
     solver = solverOf()
     with pytest.warns(UserWarning, match='Neither simplify= nor snap= reduces that'):

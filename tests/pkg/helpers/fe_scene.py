@@ -21,8 +21,8 @@ def fe(material=None, **settings):
 
 
 def bodyOf(outline, size, material=None, solver=None, **body):
-    """A solver with these attributes, and one body: of the material, or of the elastic one 'm'. An outline with holes is a
-    pair."""
+    """A solver, whose attributes are those of `solver`, and one body: of the material, or of the elastic one 'm'. An
+    outline with holes is a pair."""
     made = fe(material, **(solver or {}))
     parts = outline if isinstance(outline, tuple) else (outline,)
     made.addPolygon(*parts, size=size, material=len(O.materials) - 1, **body)

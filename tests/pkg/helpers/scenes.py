@@ -110,7 +110,7 @@ def compare(centres, radii, avoid=0, mayMiss=()):
     hSize = np.array([[O.cell.hSize[r, c] for c in range(3)] for r in range(3)]) \
         if O.periodic else None
     sure, possible = contacts(centres, radii, hSize)
-    masks, clumps = ({body.id: value(body) for body in O.bodies} for value in (lambda b: int(b.mask), lambda b: b.clumpId))
+    masks, clumps = {b.id: b.mask for b in O.bodies}, {b.id: b.clumpId for b in O.bodies}
     sure, possible = (masked(pairs, masks, avoid, clumps) for pairs in (sure, possible))
     found = {k: v for k, v in realPairs().items() if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
     missed = {p for p in sure if p not in found and not set(p) & set(mayMiss)}

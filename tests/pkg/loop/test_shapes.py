@@ -80,7 +80,8 @@ def test_bits(shapes, options):
     assert loop.fastGeometries == pytest.approx(real - tiles, abs=.5 * real if options == 'planes' else 6)
     if shapes == 'all' and options == 'tiles':
         lines = loop.report().splitlines()
-        for words in ('Box and Sphere: geometry by the loop, force by the loop', 'Wall and Sphere: geometry by the loop',
+        for words in ('Box and Sphere: geometry by the loop, force by the loop',
+                      'Wall and Sphere: geometry by the loop',
                       "Facet and Sphere: geometry by YADE's Ig2_Facet_Sphere_ScGeom"):
             assert any(words in line for line in lines)
 

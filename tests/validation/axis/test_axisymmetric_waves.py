@@ -69,8 +69,8 @@ def measured(ratio, poisson=.3, parts=8, factor=.5, element=None):
             return radial * math.sin(k * y) * envelope, -axial * math.cos(k * y) * envelope
         return radial * math.cos(k * y) * envelope, axial * math.sin(k * y) * envelope
 
-    fe = body(FEMat(**{**STEEL, 'poisson': poisson}), rectangle((0, 0), (RADIUS, length)), RADIUS / parts, element=element,
-              displacement=lambda x, y: train(x, y, False), velocity=lambda x, y: train(x, y, True))
+    fe = body(FEMat(**{**STEEL, 'poisson': poisson}), rectangle((0, 0), (RADIUS, length)), RADIUS / parts,
+              element=element, displacement=lambda x, y: train(x, y, False), velocity=lambda x, y: train(x, y, True))
     ready(fe, factor)
     x, y = fe._reference.T
     radial, axial = shape(x, theory, k, poisson) * fe.masses * numpy.exp(-1j * k * y)

@@ -24,7 +24,8 @@ class Run:
     def __init__(self, law=None, radius=RADIUS, fine=1, part=.8):
         self.size = RADIUS / 4 / fine
         length = SPECIMEN if law else 0
-        self.fe = fe = body(FEMat(**STEEL), rectangle((0, -BAR - STRIKER), (RADIUS, -BAR)), self.size, velocity=(0, SPEED))
+        self.fe = fe = body(FEMat(**STEEL), rectangle((0, -BAR - STRIKER), (RADIUS, -BAR)), self.size,
+                            velocity=(0, SPEED))
         fe.addPolygon(rectangle((0, -BAR), (RADIUS, 0)), size=self.size, material=0)
         fe.addPolygon(rectangle((0, length), (radius, length + BAR)), size=self.size, material=0)
         if law:

@@ -39,7 +39,8 @@ def hit(row, friction=0., parts=8, factor=.5, mesh=None, **changed):
     the cylinder stopped; it has then left the wall."""
     radius, length = float(row['diameter']) / 2e3, float(row['length']) / 1e3
     material = PlasticFEMat(**{**constants(row['material']), **changed}, frictionAngle=numpy.arctan(friction))
-    fe = body(material, rectangle((0, 0), (radius, length)), radius / parts, mesh=mesh, velocity=(0, -float(row['speed'])))
+    fe = body(material, rectangle((0, 0), (radius, length)), radius / parts, mesh=mesh,
+              velocity=(0, -float(row['speed'])))
     O.bodies.append(utils.wall((0, 0, 0), axis=1, material=0))
     ready(fe, factor)
     before = fe.energy['total']
