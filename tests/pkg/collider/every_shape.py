@@ -208,21 +208,18 @@ class Scene:
         self.grid, self.cohesive = grid, cohesive
         self.loopAttributes = loopAttributes or {}
 
-    def build(self, functor, rng, offset=0):
-        """Fills the scene; returns the arguments of scenes.setEngines."""
+    def build(self, functor, rng):
+        """Fills the scene; returns the arguments of scenes.setEngines, and functors for bounds."""
         loop = self.loop(functor)
-        O.dt = 1
         O.engines = [loop]      # connections make their interactions through it
         O.materials.append(self.material())
         if self.grid:
             O.materials.append(cohesiveMat('node'))
         for make in self.bodies:
             make(rng)
-        for body in O.bodies:
-            body.state.pos = body.state.pos + Vector3(1, 1, 1) * offset
-            if functor in kNearIsReal:      # YADE's collider does not see that bodies turn
-                body.state.angVel = Vector3.Zero
-        return dict(interactionLoop=loop)
+        for body in O.bodies if functor in kNearIsReal else ():  # YADE's collider does not see that bodies turn
+            body.state.angVel = Vector3.Zero
+        return dict(interactionLoop=loop, functors=boundFunctors())
 
     def loop(self, functor):
         physics = [functorOf(entry) for entry in self.physics]

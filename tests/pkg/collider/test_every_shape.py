@@ -11,23 +11,16 @@ import every_shape
 import scenes
 from every_shape import isHere, kInserting, kNearIsReal, kNoScene, kNoShape, kScenes, vector
 from scenes import O, setEngines
+from test_agreement import realAtEachStep
 
 
-kSteps = 30
 kSettings = [0, .004, .05]      # verletDist, m: none, and less and more than a step's way
 _expected = {}
 
 
-def realAtEachStep(make, functor, offset=0, **attributes):
-    """[set of real pairs] per step; ids are those of both runs."""
-    scenes.clear()
-    more = kScenes[functor].build(functor, np.random.default_rng(0), offset)
-    setEngines(make(every_shape.boundFunctors(), **attributes), **more)
-    history = []
-    for _ in range(kSteps):
-        O.step()
-        history.append(set(scenes.realPairs()))
-    return history
+def pairsOf(make, functor, **attributes):
+    """[set of real pairs] per step."""
+    return realAtEachStep(make, lambda rng: kScenes[functor].build(functor, rng), seed=0, **attributes)
 
 
 def settings(functor, verletDist):
@@ -43,7 +36,7 @@ def settings(functor, verletDist):
 def expected(collider, functor, setting):
     key = functor, setting['verletDist']
     if key not in _expected:
-        _expected[key] = realAtEachStep(collider.rival, functor, **setting)
+        _expected[key] = pairsOf(collider.rival, functor, **setting)
     return _expected[key]
 
 
@@ -67,7 +60,7 @@ def testContactsOfEveryFunctor(collider, functor, verletDist):
         pytest.skip(f'this YADE has no {functor}')
     rivals, ours = settings(functor, verletDist)
     wanted = expected(collider, functor, rivals)
-    compare(functor, wanted, realAtEachStep(collider, functor, **ours), functor in kInserting)
+    compare(functor, wanted, pairsOf(collider, functor, **ours), functor in kInserting)
     assert len(set().union(*wanted)) - len(set.intersection(*wanted)) >= 5   # that come or go
 
 

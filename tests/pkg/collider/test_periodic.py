@@ -104,16 +104,6 @@ def testCellOfFourRadii(collider, rate, verletDist):
     assert total > 300
 
 
-def testCellDistOfExistingInteractions(collider):
-    """A pair that is near for many steps keeps its cellDist while both drift through a period."""
-    periodic()
-    addSpheres([(.85, .5, .5), (1.05, .5, .5)], [.11, .11], [(.03, 0, 0)] * 2)
-    setEngines(collider())
-    for _ in range(100):
-        stepAndCheck()
-        assert scenes.realPairs() == {(0, 1): (0, 0, 0)}
-
-
 def testFlipCell(collider):
     """After a flip the same bodies touch, with the cellDist of the new cell."""
     gas(kCubic, n=100)

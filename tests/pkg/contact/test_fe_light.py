@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, kineticEnergy, momentum, O, run, steps
+from fe_scene import bodyOf, fe, kineticEnergy, momentum, O, run, steps
+from test_fe_rigid import block
 from yade import utils
 from yade import wrapper as w
 from yade.minieigenHP import Quaternion, Vector3
@@ -68,17 +69,12 @@ class Balance:
         assert [one for one in self.solver.warnings if not one.startswith(('Spheres', 'FE bodies are'))] == []
 
 
-def blockOf(solver, low=(0, 0), size=.1, mesh=.025, material='m', **settings):
-    return solver.addPolygon(yadefrag.rectangle(low, (low[0] + size, low[1] + size)), size=mesh, material=material,
-                             **settings)
-
-
 @pytest.mark.parametrize('way', [{}, {'passes': 2}])
 @pytest.mark.parametrize('ratio', [1e-6, 1e-3, .1, 1, 10, 1e3, 1e6])
 def test_boxOfAnyMassHitsABlock(ratio, way):
     """Of 1e-6 to 1e6 of the mass of the block, 10 kg; off its middle, so that both turn."""
     solver = fe(**way)
-    blockOf(solver)
+    block(solver)
     body = box((-.061, .085), (.06, .04), mass=10 * ratio, velocity=(1, .2))
     run(solver)
     balance = Balance(solver, [body])
@@ -97,11 +93,9 @@ def test_boxAtABarFollowsTheWave(kind, part):
     this difference decreases as exp(-t ρcA/M); `part`: M of the bar's mass. 1 % of the velocity, for the waves of the
     mesh."""
     length, height, speed = 1., .05, .1
-    solver = fe()
-    O.materials.append(w.FEMat(young=1e7, poisson=0, density=1000, frictionAngle=0, label='bar'))
     moving = speed if kind == 'bar hits' else 0
-    solver.addPolygon(yadefrag.rectangle((0, 0), (length, height)), size=.005, mesh='regular', material='bar',
-                      velocity=(-moving, 0))
+    solver = bodyOf(yadefrag.rectangle((0, 0), (length, height)), .005,
+                    w.FEMat(young=1e7, poisson=0, density=1000, frictionAngle=0), mesh='regular', velocity=(-moving, 0))
     mass = part * 1000 * length * height
     body = box((-.03, height / 2), (.03, .05), mass=mass, friction=0, velocity=(speed - moving, 0))
     run(solver, factor=.5)
@@ -128,7 +122,7 @@ def test_blockedDirectionsTakeNoPart(blocked, friction):
     exact energy and momentum."""
     solver = fe()
     O.materials['m'].frictionAngle = friction
-    blockOf(solver, velocity=(-1, -.2))
+    block(solver, velocity=(-1, -.2))
     body = box((-.09, .03), (.06, .04), angle=.5, mass=2, friction=friction, blocked=blocked)
     run(solver)
     balance = Balance(solver, [body])
@@ -167,7 +161,7 @@ def clump(kind):
 @pytest.mark.parametrize('kind', ['boxes', 'facets', 'box and sphere'])
 def test_clumpIsOneBody(kind):
     solver = fe()
-    blockOf(solver)
+    block(solver)
     body = free(clump(kind), mass=1, velocity=(1, .1))
     run(solver)
     steps(1)
@@ -183,8 +177,8 @@ def test_boxBetweenTwoBlocks(mass, friction):
     """Both push it at once: their rows are one system. A light box transmits the impact of the two."""
     solver = fe()
     O.materials['m'].frictionAngle = friction
-    blockOf(solver, (-.16, 0), velocity=(1, 0))
-    blockOf(solver, (.0005, .01), velocity=(-.5, .2))
+    block(solver, (-.16, 0), velocity=(1, 0))
+    block(solver, (.0005, .01), velocity=(-.5, .2))
     body = box((-.03, .05), (.0295, .04), mass=mass, friction=friction)
     run(solver)
     balance = Balance(solver, [body])
@@ -196,10 +190,8 @@ def test_boxBetweenTwoBlocks(mass, friction):
 
 
 def test_boxOnACrackingBlock():
-    solver = w.FESolver()
-    O.materials.append(w.BrittleFEMat(young=1e9, poisson=.2, density=2000, frictionAngle=.3, tensileStrength=2e5,
-                                      label='brittle'))
-    blockOf(solver, mesh=.02, material='brittle')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (.1, .1)), .02,
+                    w.BrittleFEMat(young=1e9, poisson=.2, density=2000, frictionAngle=.3, tensileStrength=2e5))
     body = box((-.058, .06), (.05, .03), angle=.3, mass=3, velocity=(4, 0))
     run(solver)
     balance = Balance(solver, [body])
@@ -210,9 +202,9 @@ def test_boxOnACrackingBlock():
 
 def test_boxComesToRestUnderItsWeight():
     """Gravity and forces of spheres are part of its free motion: at rest it presses with both, and does not move."""
-    solver = fe(gravity=(0, -9.81), damping=200)
-    O.materials['m'].frictionAngle = .5
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.2, .1)), size=.025, material='m', fixed=lambda x, y: y < 1e-9)
+    solver = bodyOf(yadefrag.rectangle((0, 0), (.2, .1)), .025,
+                    w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.5),
+                    solver=dict(gravity=(0, -9.81), damping=200), fixed=lambda x, y: y < 1e-9)
     body = box((.1, .12), (.05, .02), mass=.05, friction=.5)
     run(solver)
     O.engines[-1].gravity = (0, -9.81, 0)
@@ -227,7 +219,7 @@ def test_boxComesToRestUnderItsWeight():
 def test_bodyThatStopsToObeyForcesIsHeld():
     """A box blocked by the script in the midst of the contact is a fixed one from then on, and free again later."""
     solver = fe()
-    blockOf(solver, velocity=(-1, 0))
+    block(solver, velocity=(-1, 0))
     body = box((-.0605, .05), (.06, .04), mass=.3)
     run(solver)
     steps(int(.003 / O.dt))

@@ -8,10 +8,10 @@ import math
 import numpy as np
 import pytest
 import yade.wrapper as w
-import yadefrag  # noqa: F401
+import yadefrag
 from yade import utils
 from yadefrag import runSteps
-from fe_scene import chain, fe, impact, newBall, O, ready, run, sphereEngines, steps
+from fe_scene import bodyOf, chain, fe as solverWith, impact, newBall, O, ready, run, sphereEngines, steps
 from scenes import clear
 
 SIZE = 3.49e-3  # m
@@ -43,11 +43,14 @@ OUTLINES = dict(
     discOnBlock=lambda fine: (yadefrag.rectangle((-.02, -.0305), (.02, -.0002)), disc(.002, .0155, .015, fine)))
 
 
+def rough(young=1e7, **settings):
+    return solverWith(w.FEMat(young=young, poisson=.3, density=1000, frictionAngle=.3, label='m'), **settings)
+
+
 def deepestOfImpact(kind, ratio, mesh, angle, **settings):
     """(overlap by brute force, maxPenetration), the deepest of an impact at 10 m/s (m)."""
     clear()
-    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3, label='m'))
-    fe = w.FESolver(**settings)
+    fe = rough(**settings)
     up = np.array([-math.sin(angle), math.cos(angle)])
     turn = np.array([[up[1], up[0]], [-up[0], up[1]]])
     for sense, outline, size in zip((1, -1), OUTLINES[kind](SIZE / ratio), (SIZE, SIZE / ratio)):
@@ -79,9 +82,7 @@ def test_noneIsDeeperThanTold(kind, ratio):
 def test_deepOverlapsOfOnePassAreTold(passes):
     """A corner of fine elements beside a corner of coarse ones: with the default the coarse points enter; the
     message's advice prevents it."""
-    clear()
-    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3, label='m'))
-    fe = w.FESolver(**({} if passes is None else dict(passes=passes)))
+    fe = rough(**({} if passes is None else dict(passes=passes)))
     fe.addPolygon(disc(0, -.0205, .02, SIZE), size=SIZE, material='m', velocity=(0, 30))
     fe.addPolygon(disc(.003, .0155, .015, SIZE / 3.26), size=SIZE / 3.26, material='m', velocity=(0, -30))
     O.engines = yadefrag.engines(fe)
@@ -157,10 +158,9 @@ def test_nothingIsGainedAndNothingOverlaps(seed, fixed, turn, friction, y):
 
 def drop(**settings):
     """A brittle block that a disc shatters."""
-    solver = fe(w.BrittleFEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3,
-                               tensileStrength=5e4, strengthScatter=.1, label='b'), **settings)
-    solver.addPolygon(yadefrag.rectangle((-.2, -.2), (.2, 0)), size=.03, material='b',
-                      fixed=lambda x, y: y < -.2 + 1e-9)
+    solver = bodyOf(yadefrag.rectangle((-.2, -.2), (.2, 0)), .03,
+                    w.BrittleFEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3, tensileStrength=5e4,
+                                   strengthScatter=.1, label='b'), settings, fixed=lambda x, y: y < -.2 + 1e-9)
     solver.addPolygon(yadefrag.circle((0, .101), .1, 24), size=.03, material='b', velocity=(0, -8))
     run(solver)
     return solver
@@ -297,9 +297,7 @@ def test_pairsBecomeInteractionsElsewhereAndGo(collider):
 def test_boundsHoldUntilTheNextSearch(collider):
     """A body that falls, turns and rebounds among spheres: where spheres are looked for, its pieces
     are within their bounds, though the collider does not search in each step."""
-    import yadefrag
-    O.materials.append(w.FEMat(young=1e6, poisson=.3, density=1000, frictionAngle=.3, label='m'))
-    fe = w.FESolver()
+    fe = rough(1e6)
     fe.addPolygon(yadefrag.rectangle((0, .1), (1, .6)), size=.1, material='m',
                   velocity=lambda x, y: (-.7 * y, .7 * x - 1))
     fe.addPolygon(yadefrag.rectangle((-.5, -.5), (1.5, 0)), size=.1, material='m', fixed=lambda x, y: y < -.499)

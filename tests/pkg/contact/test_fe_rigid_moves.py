@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, O, ready, run, steps
+from fe_scene import bodyOf, fe, finder, momentum, O, ready, run, steps
 from test_fe_rigid import G, block, facet, smooth, wall
 from yade import utils
 from yade import wrapper as w
@@ -30,10 +30,9 @@ def ridge(steep, half=1.):
 def test_saddleOnARidgePressesOnBothSides(way, steep):
     """A body with a notch that fits, but for the edge, which it does not touch, and without friction: each
     facet bears half its weight W, and W/2 tan(steep) along the ground outwards; 1e-4 as on a floor."""
-    solver = fe(gravity=(0, -G), damping=300, **way)
-    O.materials['m'].frictionAngle = 0
     half = [(.01, .005), (.01, -.01 * math.tan(steep)), (.05, -.05 * math.tan(steep)), (.05, .1)]
-    solver.addPolygon(half + [(-x, y) for x, y in reversed(half)], size=.02, material='m')
+    smooth = w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=0)
+    solver = bodyOf(half + [(-x, y) for x, y in reversed(half)], .02, smooth, dict(gravity=(0, -G), damping=300, **way))
     left, right = ridge(steep)
     run(solver)
     steps(5000)
@@ -100,7 +99,7 @@ def test_facetThatRisesBesideAnotherLiftsItsHalf(way):
     riser = O.bodies[len(O.bodies) - 1]
     run(solver)
     steps(100)
-    before = momentumY(solver)
+    before = momentum(solver, ())[0][1]
     riser.state.vel = (0, .5, 0)
     given = 0
     for _ in range(300):
@@ -110,11 +109,7 @@ def test_facetThatRisesBesideAnotherLiftsItsHalf(way):
         # 4.4e-8 m in one step, which is 2e-6 of a side.
         assert right[:, 1].min() > riser.state.pos[1] - 1e-7
     assert riser.state.pos[1] > .01 and solver.nodes[:, 1].min() > -1e-8
-    assert momentumY(solver) - before == pytest.approx(given, rel=1e-9)
-
-
-def momentumY(solver):
-    return (solver.masses * solver.velocities[:, 1]).sum()
+    assert momentum(solver, ())[0][1] - before == pytest.approx(given, rel=1e-9)
 
 
 @pytest.mark.parametrize('way', WAYS)
@@ -137,9 +132,9 @@ def test_facetsThatDrawApartLetABlockFallBetween(way):
     while solver.time < started + .101:
         O.step()
     solver.damping = 0
-    start, begin = momentumY(solver), solver.time
+    start, begin = momentum(solver, ())[0][1], solver.time
     steps(100)
-    assert momentumY(solver) - start == pytest.approx(-weight * (solver.time - begin), rel=1e-9)
+    assert momentum(solver, ())[0][1] - start == pytest.approx(-weight * (solver.time - begin), rel=1e-9)
 
 
 def shelf(kind):
@@ -167,10 +162,10 @@ def test_boundaryThatLeavesThePlaneLetsABlockFallAndCatchesItWhenItIsBack(kind):
     body.state.vel = (0, 0, speed)
     steps(math.ceil(.05 / O.dt))
     body.state.vel = (0, 0, 0)
-    momentum, begin = momentumY(solver), solver.time
+    before, begin = momentum(solver, ())[0][1], solver.time
     steps(100)
     fall = -G * solver.masses.sum() * (solver.time - begin)
-    assert momentumY(solver) - momentum == pytest.approx(fall, rel=1e-9)
+    assert momentum(solver, ())[0][1] - before == pytest.approx(fall, rel=1e-9)
     # Back in 0.05 s, 0.1 m below.
     floor = solver.nodes[:, 1].min() - .1
     body.state.pos += Vector3(0, floor, 0)
@@ -210,10 +205,10 @@ def test_wallThatRunsAlongItselfIsABelt(way, wayToMove):
             dragged -= force(belt.id)[0] * O.dt
         return dragged, (solver.masses * solver.velocities[:, 0]).sum()
 
-    dragged, momentum = go(.08)
+    dragged, gained = go(.08)
     weight = G * solver.masses.sum()
     assert dragged == pytest.approx(math.tan(.3) * weight * .08, rel=.02)
-    assert momentum == pytest.approx(dragged, rel=1e-6)
+    assert gained == pytest.approx(dragged, rel=1e-6)
     go(.2)
     assert solver.velocities[:, 0].mean() == pytest.approx(.5, rel=.02)
     assert solver.warnings == []
@@ -254,8 +249,7 @@ SETS = {
 
 def scene(order):
     """Two blocks at rest, one on a wall, one on a box that is higher; the solver, and {id: weight}."""
-    solver = fe(gravity=(0, -G), damping=300)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .5, solver=dict(gravity=(0, -G), damping=300))
     solver.addPolygon(yadefrag.rectangle((3, 1), (4, 2)), size=.5, material='m')
     ground = O.bodies.append(utils.wall(0, axis=1, material='m'))
     table = O.bodies.append(utils.box((3.5, .75, 0), (1, .25, .5), fixed=True, material='m'))
@@ -321,8 +315,7 @@ def test_forcesOfOtherEnginesRemain():
 
 def test_clumpNeedsAResetter():
     """NewtonIntegrator itself adds the forces of a clump's members to those of the clump."""
-    solver = fe(gravity=(0, -G))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.25, material='m', fixed=lambda x, y: y < 1e-9)
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .25, solver=dict(gravity=(0, -G)), fixed=lambda x, y: y < 1e-9)
     halves = [utils.box((x, 1.3, 0), (.1, .1, .1), fixed=False, material='m') for x in (.45, .55)]
     for one in halves:
         one.state.mass, one.state.inertia = 400, (1, 1, 3)

@@ -6,35 +6,45 @@ import pytest
 import yadefrag
 from yade import utils
 from yadefrag import BrittleFEMat, FEMat, FESolver, PlasticFEMat, rectangle
-from fe_scene import O, ready
+from axis_scene import BAR, body, DENSITY, O, STEEL, untilTime, YOUNG
+from fe_scene import ready
 
-STEEL = dict(young=200e9, poisson=.3, density=7800, frictionAngle=0)
 COPPER = dict(young=117e9, poisson=.35, density=8930, yieldStress=400e6, hardening=100e6, frictionAngle=0)
-INNER, OUTER = .1, .2  # m
+INNER, OUTER, PRESSURE = .1, .2, 100e6  # m, m, Pa
 
 
-def tube(material, height=.03, size=.005, **body):
-    """A tube between two planes, in plane strain; the nodes of its bore."""
-    O.materials.append(material)
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((INNER, 0), (OUTER, height)), size=size, material=0, **body,
-                  fixed=lambda x, y: 'y' if y < 1e-9 or y > height - 1e-9 else False)
+HIGH = .03  # m, of the tube
+
+
+def damped(material, outline, size, isHeld, isBore, **settings):
+    """A body some of whose nodes are held along the axis; the nodes of its bore."""
+    fe = body(material, outline, size, fixed=lambda x, y: 'y' if isHeld(y) else False, **settings)
     ready(fe, .8)
     fe.damping = 20e3
-    return fe, numpy.flatnonzero(abs(fe.nodes[:, 0] - INNER) < 1e-9)
+    return fe, numpy.flatnonzero(isBore(*fe.nodes.T))
 
 
-def shell(material, size=.012, **body):
-    """The upper half of a hollow sphere, on its plane of symmetry; the nodes of the bore."""
-    O.materials.append(material)
-    fe = FESolver(axisymmetric=True)
+def tube(material, **settings):
+    """A tube between two planes, in plane strain."""
+    return damped(material, rectangle((INNER, 0), (OUTER, HIGH)), .005, lambda y: y < 1e-9 or y > HIGH - 1e-9,
+                  lambda x, y: abs(x - INNER) < 1e-9, **settings)
+
+
+def shell(material, **settings):
+    """The upper half of a hollow sphere, on its plane of symmetry."""
     circle = numpy.stack([numpy.sin(angles := numpy.linspace(0, math.pi / 2, 61)), numpy.cos(angles)], axis=1)
     circle[-1, 1] = 0
-    fe.addPolygon([*(INNER * circle), *(OUTER * circle[::-1])], size=size, material=0, **body,
-                  fixed=lambda x, y: 'y' if y < 1e-9 else False)
-    ready(fe, .8)
-    fe.damping = 20e3
-    return fe, numpy.flatnonzero(numpy.hypot(*fe.nodes.T) < 1.0005 * INNER)
+    return damped(material, [*(INNER * circle), *(OUTER * circle[::-1])], .012, lambda y: y < 1e-9,
+                  lambda x, y: numpy.hypot(x, y) < 1.0005 * INNER, **settings)
+
+
+def pressed(make, poisson, element):
+    """An elastic one at rest under PRESSURE within."""
+    fe, bore = make(FEMat(**{**STEEL, 'poisson': poisson}), element=element)
+    fe.pressure(bore, PRESSURE)
+    untilTime(fe, 1e-3, 500)
+    assert fe.energy['kinetic'] < 1e-6 * fe.energy['strain']
+    return fe, bore
 
 
 def volumes(fe):
@@ -47,22 +57,17 @@ def volumes(fe):
 @pytest.mark.parametrize('element', ['linear', 'smoothed'])
 @pytest.mark.parametrize('poisson', [.3, .49])
 def test_tubeUnderPressureIsThatOfLame(element, poisson):
-    pressure = 100e6
-    fe, bore = tube(FEMat(**{**STEEL, 'poisson': poisson}), element=element)
-    fe.pressure(bore, pressure)
-    while fe.time < 1e-3:
-        O.run(500, True)
-    assert fe.energy['kinetic'] < 1e-6 * fe.energy['strain']
+    fe, bore = pressed(tube, poisson, element)
     radii = fe.nodes[fe.triangles].mean(axis=1)[:, 0]
-    mean = pressure * INNER**2 / (OUTER**2 - INNER**2)
+    mean = PRESSURE * INNER**2 / (OUTER**2 - INNER**2)
     part = mean * OUTER**2 / radii**2
     # Volume strain of single triangles locks near a poisson of .5, that of nodes does not.
     allowed = .2 if poisson > .4 and element == 'linear' else .02
     weights = volumes(fe) / volumes(fe).sum()
     for got, wanted in ((fe.stress[:, 0], mean - part), (fe.stressZ, mean + part),
                         (fe.stress[:, 1], numpy.full(len(radii), 2 * poisson * mean))):
-        assert math.sqrt(weights @ (got - wanted)**2) < allowed * pressure
-    wanted = (1 + poisson) / STEEL['young'] * INNER * ((1 - 2 * poisson) * mean + mean * OUTER**2 / INNER**2)
+        assert math.sqrt(weights @ (got - wanted)**2) < allowed * PRESSURE
+    wanted = (1 + poisson) / YOUNG * INNER * ((1 - 2 * poisson) * mean + mean * OUTER**2 / INNER**2)
     # Stresses of .001 of the stiffness: the closed form is of small strains.
     assert fe.displacements[bore, 0].mean() == pytest.approx(wanted, rel=5e-3)
 
@@ -86,23 +91,18 @@ def test_plasticFrontIsThatOfHill(front, order):
     fe, bore = (tube, shell)[order - 2](PlasticFEMat(**STEEL, yieldStress=300e6))
     duration = 8e-4
     fe.pressure(bore, [(0, 0), (duration, pressureAt(front * INNER))])
-    while fe.time < 2 * duration:
-        O.run(500, True)
-    found = math.sqrt(INNER**2 + flowed(fe) / (math.pi * .03)) if order == 2 else \
+    untilTime(fe, 2 * duration, 500)
+    found = math.sqrt(INNER**2 + flowed(fe) / (math.pi * HIGH)) if order == 2 else \
         (INNER**3 + flowed(fe) * 1.5 / math.pi)**(1 / 3)
     assert pressureAt(found) == pytest.approx(pressureAt(front * INNER), rel=.02)
 
 
 @pytest.mark.parametrize('element, poisson', [('linear', .3), ('smoothed', .3), ('smoothed', .49)])
 def test_hollowSphereUnderPressureIsThatOfLame(element, poisson):
-    pressure = 100e6
-    fe, bore = shell(FEMat(**{**STEEL, 'poisson': poisson}), element=element)
-    fe.pressure(bore, pressure)
-    while fe.time < 1e-3:
-        O.run(500, True)
+    fe, bore = pressed(shell, poisson, element)
     radii = numpy.hypot(*fe._reference.T)
     moved = numpy.hypot(*fe.nodes.T) - radii
-    wanted = pressure * INNER**3 / (OUTER**3 - INNER**3) / STEEL['young'] * (
+    wanted = PRESSURE * INNER**3 / (OUTER**3 - INNER**3) / YOUNG * (
         (1 - 2 * poisson) * radii + (1 + poisson) * OUTER**3 / (2 * radii**2))
     # Single nodes of the outer sphere are off by up to .011.
     assert numpy.allclose((moved / wanted)[bore], 1, atol=.01)
@@ -112,45 +112,38 @@ def test_hollowSphereUnderPressureIsThatOfLame(element, poisson):
 def test_waveAlongABarHasTheSpeedOfBars():
     """A step of pressure at the end of a bar: its half reaches a place at √(E/ρ), less by the dispersion of lateral
     inertia, which delays the half by less than a radius."""
-    O.materials.append(FEMat(**STEEL))
-    fe = FESolver(axisymmetric=True)
-    radius, length = .005, .2
-    fe.addPolygon(rectangle((0, 0), (radius, length)), size=.00125, material=0)
+    fe = body(FEMat(**STEEL), rectangle((0, 0), (.005, .2)), .00125)
     fe.pressure(numpy.flatnonzero(fe.nodes[:, 1] < 1e-9), 1e6)
     ready(fe, .8)
     places = [numpy.flatnonzero(abs(fe.nodes[:, 1] - y) < .001) for y in (.05, .15)]
     passed = [None, None]
-    final = 1e6 / math.sqrt(STEEL['young'] * STEEL['density'])
+    final = 1e6 / (DENSITY * BAR)
     while passed[1] is None:
         O.step()
         for i, place in enumerate(places):
             if passed[i] is None and fe.velocities[place, 1].mean() > final / 2:
                 passed[i] = fe.time
-    assert .1 / (passed[1] - passed[0]) == pytest.approx(math.sqrt(STEEL['young'] / STEEL['density']), rel=.01)
+    assert .1 / (passed[1] - passed[0]) == pytest.approx(BAR, rel=.01)
 
 
 def test_copperCylinderOnAWall():
     """The benchmark of Wilkins and Guinan 1973: the final radius is 7.12 mm by Simo (1992, Comput. Methods Appl. Mech.
     Eng. 99, 61) and 7.22 mm by Foulk et al. (2021, Sec. 4.4). Here four triangles fill the radius."""
-    O.materials.append(PlasticFEMat(**COPPER))
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((0, 0), (3.2e-3, 32.4e-3)), size=.8e-3, material=0, velocity=(0, -227))
+    fe = body(PlasticFEMat(**COPPER), rectangle((0, 0), (3.2e-3, 32.4e-3)), .8e-3, velocity=(0, -227))
     O.bodies.append(utils.wall((0, 0, 0), axis=1))
     ready(fe, .5)
     before = fe.energy['total']
-    while fe.time < 80e-6:
-        O.run(200, True)
+    untilTime(fe, 80e-6, 200)
     assert fe.nodes[:, 0].max() == pytest.approx(7.17e-3, rel=.03)
     assert fe.energy['total'] == pytest.approx(before, rel=1e-4)
     assert fe.energy['plastic'] > .95 * before
     assert fe.nodes[:, 0].min() >= 0 and fe.nodes[:, 1].min() > -1e-6
 
 
-def discs(element='linear', material=None, **settings):
+def discs(element='linear'):
     """Two discs on the axis, one of which hits the other, and a ring around them."""
-    O.materials.append(material or FEMat(young=1e9, poisson=.3, density=1000, frictionAngle=.3))
-    fe = FESolver(axisymmetric=True, **settings)
-    fe.addPolygon(rectangle((0, 0), (.1, .04)), size=.01, material=0, element=element)
+    fe = body(FEMat(young=1e9, poisson=.3, density=1000, frictionAngle=.3), rectangle((0, 0), (.1, .04)), .01,
+              element=element)
     fe.addPolygon(rectangle((0, .0405), (.06, .08)), size=.012, material=0, velocity=(0, -20), element=element)
     fe.addPolygon(rectangle((.102, -.01), (.12, .03)), size=.01, material=0, velocity=(-5, 0), element=element)
     ready(fe, .5)
@@ -172,9 +165,8 @@ def test_contactKeepsMomentumAlongTheAxisAndEnergy(element):
 
 def test_boxAndWallAreACylinderAndAPlane():
     """A disc falls onto a free box: the momentum goes to the box, along the axis only."""
-    O.materials.append(FEMat(young=1e8, poisson=.3, density=1000, frictionAngle=0))
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((0, .0105), (.05, .03)), size=.005, material=0, velocity=(0, -4))
+    fe = body(FEMat(young=1e8, poisson=.3, density=1000, frictionAngle=0), rectangle((0, .0105), (.05, .03)), .005,
+              velocity=(0, -4))
     box = utils.box((0, 0, 0), (.02, .01, .02), fixed=False)
     O.bodies.append(box)
     box.state.mass, box.state.inertia = .1, (1, 1, 1)
@@ -189,9 +181,7 @@ def test_boxAndWallAreACylinderAndAPlane():
 def test_ringsCrackIntoRings():
     """A brittle disc that is hit: fragments are rings, whose masses add up; the energy is balanced."""
     brittle = BrittleFEMat(young=70e9, poisson=.2, density=2500, tensileStrength=20e6, fractureEnergy=10, frictionAngle=.3)
-    O.materials.append(brittle)
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((0, 0), (.05, .01)), size=.001, material=0)
+    fe = body(brittle, rectangle((0, 0), (.05, .01)), .001)
     fe.addPolygon(rectangle((0, .0101), (.005, .0201)), size=.001, material=0, velocity=(0, -30))
     ready(fe, .4)
     mass, energy = fe.masses.sum(), fe.energy['total']
@@ -209,11 +199,8 @@ def test_ringsCrackIntoRings():
 def test_initialStressAroundTheAxisIsInEquilibrium():
     """Even pressure in space, with a pressure on the boundary: at rest, also on the axis."""
     for yields in (False, True):
-        O.reset()
-        O.materials.append(PlasticFEMat(**STEEL, yieldStress=1e9) if yields else FEMat(**STEEL))
-        fe = FESolver(axisymmetric=True)
-        fe.addPolygon(rectangle((0, 0), (.1, .1)), size=.02, material=0, element='linear',
-                      stress=(-1e8, -1e8, 0, -1e8))
+        steel = PlasticFEMat(**STEEL, yieldStress=1e9) if yields else FEMat(**STEEL)
+        fe = body(steel, rectangle((0, 0), (.1, .1)), .02, element='linear', stress=(-1e8, -1e8, 0, -1e8))
         fe.pressure(numpy.arange(len(fe.nodes)), 1e8)
         ready(fe, .5)
         assert fe.stressZ == pytest.approx(numpy.full(len(fe.triangles), -1e8), rel=1e-8)
@@ -225,8 +212,8 @@ def test_whatHasNoMeaningIsRefusedInASentence():
     O.materials.append(FEMat(**STEEL))
     fe = FESolver(axisymmetric=True)
 
-    def refused(part, **body):
-        arguments = {'outline': rectangle((0, 0), (.1, .1)), 'size': .02, 'material': 0, **body}
+    def refused(part, **given):
+        arguments = {'outline': rectangle((0, 0), (.1, .1)), 'size': .02, 'material': 0, **given}
         with pytest.raises(ValueError, match=part):
             fe.addPolygon(arguments.pop('outline'), **arguments)
         assert not len(fe.nodes)
@@ -239,12 +226,12 @@ def test_whatHasNoMeaningIsRefusedInASentence():
     refused('planeStress', material=1)
     with pytest.raises(ValueError, match='along the axis'):
         fe.gravity = (1, 0, 0)
-    body = fe.addPolygon(rectangle((0, 0), (.1, .1)), size=.02, material=0)
+    number = fe.addPolygon(rectangle((0, 0), (.1, .1)), size=.02, material=0)
     with pytest.raises(ValueError, match='no bodies'):
         fe.axisymmetric = False
     assert fe.axisymmetric
     with pytest.raises(ValueError, match='turn'):
-        fe.rotate(body, 1, (0, 0))
+        fe.rotate(number, 1, (0, 0))
 
 
 @pytest.mark.parametrize('other, part', [
@@ -252,9 +239,7 @@ def test_whatHasNoMeaningIsRefusedInASentence():
     (lambda: utils.box((.3, 0, 0), (.1, .1, .1)), 'x = 0'),
     (lambda: utils.facet([(-1, -1, -1), (1, -1, -1), (0, -1, 1)]), 'Facet')])
 def test_bodiesThatAreNoRingsAreRefused(other, part):
-    O.materials.append(FEMat(**STEEL))
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((0, .5), (.1, .6)), size=.02, material=0)
+    fe = body(FEMat(**STEEL), rectangle((0, .5), (.1, .6)), .02)
     O.bodies.append(other())
     ready(fe, .5)
     with pytest.raises((ValueError, RuntimeError), match=part):
@@ -262,9 +247,7 @@ def test_bodiesThatAreNoRingsAreRefused(other, part):
 
 
 def test_ringThatShrinksToTheAxisIsRefused():
-    O.materials.append(FEMat(young=1e6, poisson=0, density=1000))
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((.01, 0), (.03, .02)), size=.01, material=0, velocity=(-20, 0))
+    fe = body(FEMat(young=1e6, poisson=0, density=1000), rectangle((.01, 0), (.03, .02)), .01, velocity=(-20, 0))
     ready(fe, .1)
     with pytest.raises(RuntimeError, match='axis'):
         O.run(3000, True)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, O, run, steps
+from fe_scene import bodyOf, fe, heard, O, run, steps
 from outline_files import areas
 from yade import wrapper as w
 
@@ -53,8 +53,7 @@ def test_bodyInEquilibriumStaysAsItIs(kind):
 
 
 def test_withoutLoadsItSprings():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='m', stress=(-1e4, 0, 0))
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .1, stress=(-1e4, 0, 0))
     run(solver)
     started = solver.energy['strain']
     solver.damping = 200  # 1/s, about critical
@@ -69,9 +68,9 @@ def test_withoutLoadsItSprings():
 @pytest.mark.parametrize('planeStress', [False, True])
 def test_strainEnergyIsHalfStressTimesStrain(planeStress):
     """½ σ:ε A of the linear law within 1e-6: strains of 1e-7 leave out no more."""
-    solver = fe(w.FEMat(young=YOUNG, poisson=POISSON, density=DENSITY, planeStress=planeStress, label='m'))
     xx, yy, xy = stress = np.array([-3., 1., .5]) * 1e-1
-    solver.addPolygon(yadefrag.rectangle((0, 0), (2, 1)), size=.2, material='m', thickness=.5, stress=stress)
+    material = w.FEMat(young=YOUNG, poisson=POISSON, density=DENSITY, planeStress=planeStress)
+    solver = bodyOf(yadefrag.rectangle((0, 0), (2, 1)), .2, material, thickness=.5, stress=stress)
     nu, young = (POISSON, YOUNG) if planeStress else (POISSON / (1 - POISSON), YOUNG / (1 - POISSON**2))
     density = (xx**2 + yy**2 - 2 * nu * xx * yy + 2 * (1 + nu) * xy**2) / (2 * young)
     assert solver.energy['strain'] == pytest.approx(density * 2 * .5, rel=1e-6)
@@ -88,10 +87,9 @@ def test_groundUnderItsWeightIsAtRest():
         down = -DENSITY * g * (depth - y)
         return POISSON / (1 - POISSON) * down, down, 0
 
-    solver = fe(gravity=(0, -g))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (3, depth)), size=.25, material='m', stress=stress, name='ground',
-                      fixed=lambda x, y: {(True, False): 'x', (False, True): 'y', (True, True): True}.get(
-                          (x < 1e-9 or x > 3 - 1e-9, y < 1e-9), False))
+    solver = bodyOf(yadefrag.rectangle((0, 0), (3, depth)), .25, solver=dict(gravity=(0, -g)), stress=stress,
+                    fixed=lambda x, y: {(True, False): 'x', (False, True): 'y', (True, True): True}.get(
+                        (x < 1e-9 or x > 3 - 1e-9, y < 1e-9), False))
     run(solver)
     before = solver.nodes
     steps(1000)
@@ -104,8 +102,8 @@ def test_groundUnderItsWeightIsAtRest():
 def test_cracksDependOnTheStress():
     for part, cracks in ((.95, False), (1.05, True)):
         O.reset()
-        solver = fe(w.BrittleFEMat(young=1e9, poisson=.2, density=2000, tensileStrength=1e6, label='b'))
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='b', stress=(part * 1e6,) * 2 + (0,))
+        brittle = w.BrittleFEMat(young=1e9, poisson=.2, density=2000, tensileStrength=1e6)
+        solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .1, brittle, stress=(part * 1e6,) * 2 + (0,))
         run(solver)
         solver.loads = tractionsOn(solver, (part * 1e6,) * 2 + (0,))
         steps(3)
@@ -119,10 +117,8 @@ def test_holeThatIsDugHasKirschsStresses(lateral, element, off):
     hole, a twelfth of its radius large, against Kirsch's at their middles, root of the mean square over 3p: 4.0, 3.3 %
     (smoothed strains 0.9, 0.7 %). Beside the hole, where it is 3 − lateral times p at the rim: 3 % (0.2 to 2.2 %)."""
     p, a = 1e3, 1.
-    solver = fe()
-    solver.addPolygon(*yadefrag.ring((0, 0), a, 15 * a, 72), material='m', element=element,
-                      size=lambda x, y: max(.08, .12 * math.hypot(x, y) - .04), stress=(-p, -p * lateral, 0),
-                      fixed=lambda x, y: math.hypot(x, y) > 14.9 * a)
+    solver = bodyOf(yadefrag.ring((0, 0), a, 15 * a, 72), lambda x, y: max(.08, .12 * math.hypot(x, y) - .04),
+                    element=element, stress=(-p, -p * lateral, 0), fixed=lambda x, y: math.hypot(x, y) > 14.9 * a)
     run(solver)
     solver.relax(1e-9)
     x, y = solver.nodes[solver.triangles].mean(axis=1).T
@@ -164,30 +160,20 @@ def test_stressAcrossThePlaneIsKept(yields, tmp_path):
 
 
 def test_evenPressureDoesNotYield():
+    """A stress that does is reported."""
     clay = yadefrag.PlasticFEMat(young=10e6, poisson=.3, density=1800, yieldStress=34.6e3)
     p = 1e5
     for stress, count in (((-p, -p, 0, -p), 0), ((-p, -p, 0), 0), ((-p, -p, 0, -.6 * p), 1)):
         O.reset()
-        solver = fe()
-        number = O.materials.append(clay)
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material=number, stress=stress)
+        with heard() as said:
+            solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .2, clay, stress=stress)
+        assert ''.join(said).count('outside of the yield surface') == count
         solver.pressure(lambda x, y: True, p)
         run(solver)
         steps(200)
         assert (solver.plasticStrain.max() > 1e-9) == bool(count)
         if not count:
             assert abs(solver.displacements).max() < 1e-9 and np.allclose(solver.stressZ, -p)
-
-
-def test_aStressThatYieldsIsReported(recwarn):
-    clay = yadefrag.PlasticFEMat(young=10e6, poisson=.3, density=1800, yieldStress=34.6e3)
-    solver = fe()
-    number = O.materials.append(clay)
-    for stress in ((-1e5, -1e5, 0, -.6e5), (-1e5, -1e5, 0)):
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material=number, stress=stress)
-        solver.removeBody(len(solver._names) - 1)
-    found = ''.join(str(one.message) for one in recwarn)
-    assert found.count('outside of the yield surface') == 1
 
 
 def test_aTunnelIsAsWideAsSalencons():
@@ -197,12 +183,8 @@ def test_aTunnelIsAsWideAsSalencons():
     p, cohesion, far = 30e6, 3.45e6, 8.
     rock = yadefrag.FrictionalFEMat(young=6.78e9, poisson=.21, density=2500, cohesion=cohesion,
                                     internalFriction=math.pi / 6, dilationAngle=math.pi / 6)
-    number = O.materials.append(rock)
-    solver = fe()
-    outline, holes = yadefrag.ring((0, 0), 1, far, 48)
-    quarter = lambda x, y: math.hypot(x, y) > .99 * far
-    solver.addPolygon(outline, holes, size=lambda x, y: max(.09, .25 * math.hypot(x, y) - .2), material=number,
-                      stress=(-p, -p, 0, -p), fixed=quarter)
+    solver = bodyOf(yadefrag.ring((0, 0), 1, far, 48), lambda x, y: max(.09, .25 * math.hypot(x, y) - .2), rock,
+                    stress=(-p, -p, 0, -p), fixed=lambda x, y: math.hypot(x, y) > .99 * far)
     slow = .06
     solver.pressure(lambda x, y: math.hypot(x, y) < 1.01, lambda t: p * max(0, 1 - t / slow))
     solver.damping = 300

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import (blow, fe, finder, kineticEnergy, momentum, O, ready, reloaded, run, solverOfScene,
+from fe_scene import (bodyOf, fe, finder, kineticEnergy, momentum, O, ready, run, solverOfScene,
                       splitting, steps, throwBall)
 from yade import utils, wrapper as w
 
@@ -22,8 +22,7 @@ YOUNG, POISSON, DENSITY = 1e7, .3, 1000.  # fe_scene's material
 def test_pressureInARingIsLames():
     """Thick cylinder under inner pressure, plane strain; linear triangles are too stiff by 1 to 2 %."""
     a, b, p = .5, 1., 1e3
-    solver = fe()
-    solver.addPolygon(*yadefrag.ring((0, 0), a, b, 64), size=.06, material='m')
+    solver = bodyOf(yadefrag.ring((0, 0), a, b, 64), .06)
     run(solver)
     inner = np.linalg.norm(solver.nodes, axis=1) < a + 1e-6
     start = np.linalg.norm(solver.nodes[inner], axis=1)
@@ -35,8 +34,7 @@ def test_pressureInARingIsLames():
 
 
 def test_pressureTurnsWithItsSide():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((-1, -.5), (1, .5)), size=.5, material='m', thickness=.2)
+    solver = bodyOf(yadefrag.rectangle((-1, -.5), (1, .5)), .5, thickness=.2)
     run(solver)
     top = solver.nodes[:, 1] > .5 - 1e-9
     solver.rotate(0, 20., (0, 0))
@@ -50,8 +48,7 @@ def test_pressureTurnsWithItsSide():
 
 
 def test_pressureByAFunction(folder):
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .5)
     run(solver)
     times = []
     solver.pressure(lambda x, y: x < 1e-9, lambda t: times.append(t) or 10.)
@@ -134,9 +131,10 @@ def test_pressureEntersCracksThatTransmitNoTraction():
     ends = []
     for intoCracks in (False, True):
         O.reset()
-        solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, fractureEnergy=50, label='b'))
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', joints=[((.5, 0), (.5, .4))],
-                          jointStrength=1e3, jointEnergy=5, velocity=lambda x, y: (.2 if x > .5 else -.2 if x < .5 else 0, 0))
+        solver = bodyOf(yadefrag.rectangle((0, 0), (1, .4)), .05,
+                        w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, fractureEnergy=50),
+                        joints=[((.5, 0), (.5, .4))], jointStrength=1e3, jointEnergy=5,
+                        velocity=lambda x, y: (.2 if x > .5 else -.2 if x < .5 else 0, 0))
         run(solver, factor=.5)
         solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=intoCracks)
         while solver.numCracks < 8:
@@ -153,9 +151,9 @@ def test_pressureEntersCracksThatTransmitNoTraction():
 
 def test_pressureStaysOutOfCracksThatDoNotReachIt():
     """Of a crack within a body, and on the far side of one that pressure has not come to."""
-    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5, label='b'))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', jointStrength=1e3, jointEnergy=0,
-                      joints=[((.5, .1), (.5, .3))], velocity=lambda x, y: (.2 * (x - .5), 0))
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, .4)), .05,
+                    w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5), jointStrength=1e3, jointEnergy=0,
+                    joints=[((.5, .1), (.5, .3))], velocity=lambda x, y: (.2 * (x - .5), 0))
     run(solver, factor=.5)
     solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=True)
     while solver.numCracks < 4:
@@ -172,8 +170,7 @@ def test_pressureStaysOutOfCracksThatDoNotReachIt():
 # --- rest
 
 def test_relaxedBlockCarriesItsWeight():
-    solver = fe(gravity=(0, -9.81))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.25, material='m', name='block')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .25, solver=dict(gravity=(0, -9.81)))
     run(solver)
     low = solver.nodes[:, 1] < 1e-9
     solver.prescribe(low, vy=0)
@@ -270,10 +267,9 @@ def test_shorterStepIsAdvisedOnlyWhereItHelps(smooth):
     created, messages = [], []
     for factor in (.3, .1):
         O.reset()
-        solver = fe(w.PlasticFEMat(young=1e8, poisson=.3, density=2700, yieldStress=3e5, hardening=0,
-                                   frictionAngle=.4, label='p'), linearViscosity=.06)
-        solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .04)), size=.0125, material='p', thickness=.04, smooth=smooth,
-                          fixed=lambda x, y: x < 1e-9 or x > .5 - 1e-9)
+        soft = w.PlasticFEMat(young=1e8, poisson=.3, density=2700, yieldStress=3e5, hardening=0, frictionAngle=.4)
+        solver = bodyOf(yadefrag.rectangle((0, 0), (.5, .04)), .0125, soft, solver=dict(linearViscosity=.06),
+                        thickness=.04, smooth=smooth, fixed=lambda x, y: x < 1e-9 or x > .5 - 1e-9)
         ball((.45, .0561), .016, (1, -15), 1e8, 7800, .4)
         ready(solver, factor, spheres=True)
         O.run(int(.02 / O.dt), True)
@@ -309,43 +305,8 @@ def test_balanceIsRecorded(tmp_path):
     assert float(rows[-1].split(',')[place]) == pytest.approx(wanted['scene'], abs=1e-3 * abs(wanted['outside']))
 
 
-def test_externalIsAnAlias():
-    solver = fe(gravity=(0, -G))
-    block(solver, fixed=None)
-    run(solver)
-    O.run(10, True)
-    energy = solver.energy
-    assert energy['external'] == -energy['outside'] > 0 and energy.get('external') == energy['external']
-    assert 'external' in energy and 'external' not in list(energy)
-    assert builtins.sum(value for name, value in energy.items() if name != 'total') == \
-        pytest.approx(energy['total'], abs=1e-12)
-    with pytest.raises(KeyError):
-        energy['nothing']
-    assert energy.get('nothing', 3) == 3 and not math.isnan(energy['total'])
-
-
-# --- what FESolver complains of: energy that contact makes, bodies that sink into one another
-
-def test_overlapIsReportedOncePerDoubling(capfd, tmp_path):
-    """No force of contact moves held nodes."""
-    solver = blow(held=True)
-    O.run(400, True)
-    sentences = solver.warnings
-    assert 0 < len(sentences) < 8
-    assert 'bodies overlap by' in sentences[0] and 'take a shorter step' in sentences[0]
-    err = capfd.readouterr().err
-    assert [line for line in err.splitlines() if line.startswith('WARN')] == \
-        ['WARN  FESolver: ' + sentence for sentence in sentences]
-    # They are part of the state, and not repeated.
-    for name in ('x.yade', 'x.xml'):
-        again = reloaded(str(tmp_path / name))
-        assert again.warnings == sentences
-        assert 'WARN  FESolver' not in capfd.readouterr().err
-
-
 def test_bodiesWithoutTheirEngineAreReported():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .5)
     O.engines, O.dt = [w.ForceResetter()], 1e-6
     with pytest.warns(UserWarning, match='O.engines has no FESolver, so that nothing moves its bodies'):
         yadefrag.runSteps(1)

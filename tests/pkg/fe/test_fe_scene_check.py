@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, momentum, O, reloaded, run, steps
+from fe_scene import bodyOf, finder, momentum, O, reloaded, run, solverOfScene, steps
 from yade import utils
 from yade import wrapper as w
 
@@ -15,8 +15,7 @@ SPHERE = 'Ig2_Sphere_SurfaceSegment_ScGeom'
 
 
 def scene(spheres=True, **settings):
-    solver = fe(**settings)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .5, solver=settings)
     run(solver, finder('LebesgueCollider'), spheres=spheres)
     return solver
 
@@ -53,7 +52,8 @@ def test_completeSceneGivesNoMessage(capfd):
     (lambda: utils.wall(-1, axis=1), 'Wall'), (lambda: utils.box((0, -1, 0), (1, .1, 1)), 'Box'),
     (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet'),
     (lambda: utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'), 'Tetra')])
-def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd):
+def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
+    """What has been reported is part of the state, and not repeated."""
     solver = scene(rigidBodies=False)
     steps(2)
     O.bodies.append(make())
@@ -64,6 +64,10 @@ def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd):
     [sentence] = messages(solver, capfd)
     assert sentence.startswith('FE bodies go through bodies of the shape %s, such as #%d: %s' % (
         shape, number, 'they touch each other, spheres, walls, boxes and facets only' * (shape == 'Tetra')))
+    for name in ('/x.yade', '/x.xml'):
+        assert reloaded(folder + name).warnings == [sentence]
+        steps(2)
+        assert solverOfScene().warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
 
 
 def test_masksThatExcludeContactOfBodiesAreReported(capfd):
@@ -160,6 +164,10 @@ def test_energiesOfTheSceneHaveTheSolversSigns():
     steps(40)
     own, scenes = solver.energy, O.energy
     assert own['outside'] == -own['external'] < 0
+    assert own.get('external') == own['external'] and own.get('nothing', 3) == 3
+    assert 'external' in own and 'external' not in list(own)  # an alias
+    with pytest.raises(KeyError):
+        own['nothing']
     for name in ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'outside'):
         assert scenes['fe' + name.capitalize()] == own[name]
     parts = sum(value for name, value in own.items() if name != 'total')
@@ -174,8 +182,7 @@ kOrder = 'the order is ForceResetter, collider, InteractionLoop, FESolver, Newto
 
 def blow(order, loop=w.InteractionLoop, integrator=w.NewtonIntegrator):
     """A sphere that hits a block, with engines in the order given by letters; the solver."""
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.25, material='m')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (1, 1)), .25)
     sphere = utils.sphere((-.104, .5, 0), .1, material=w.FrictMat(young=1e7, density=1000))
     sphere.state.vel = (2, 0, 0)
     O.bodies.append(sphere)

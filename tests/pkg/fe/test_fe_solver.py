@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, impact, momentum, O, ready, reloaded, run, steps, throwBall
+from fe_scene import bodyOf, fe, finder, impact, momentum, O, ready, reloaded, run, steps, throwBall
 from yade import gridpfacet, utils, wrapper as w
 from yade.wrapper import *
 from yadefrag import *
@@ -57,9 +57,8 @@ def test_pieceBodiesFollow():
     """Shapes lie on the nodes, states move as the pieces do, with any integrator."""
     for newton in (True, False):
         O.reset()
-        solver = fe()
-        solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m',
-                          velocity=(1, 2), spin=5, smooth=[True, False, False, True])
+        solver = bodyOf(yadefrag.rectangle((0, 0), (.1, .1)), .05, velocity=(1, 2), spin=5,
+                        smooth=[True, False, False, True])
         run(solver, finder('LebesgueCollider'), newton=newton)
         steps(50)
         loop = solver.nodes[solver.surfaces[0]]
@@ -85,10 +84,8 @@ kSquare = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
 def test_functionsOfPlace():
-    solver = fe()
-    solver.addPolygon(kSquare, size=.25, material='m', velocity=lambda x, y: (y, 0),
-                      displacement=lambda x, y: (.01 * x, 0),
-                      fixed=lambda x, y: 'x' if y < 1e-9 else x > 1 - 1e-9 and y > .5)
+    solver = bodyOf(kSquare, .25, velocity=lambda x, y: (y, 0), displacement=lambda x, y: (.01 * x, 0),
+                    fixed=lambda x, y: 'x' if y < 1e-9 else x > 1 - 1e-9 and y > .5)
     moved = solver.displacements
     rest = solver.nodes - moved
     assert moved == pytest.approx(np.stack([.01 * rest[:, 0], 0 * rest[:, 0]], axis=1))
@@ -103,21 +100,11 @@ def test_functionsOfPlace():
     assert (solver.velocities[bottom, 1] != 0).any()
 
 
-def test_addTriangles():
-    solver = fe()
-    nodes, triangles = yadefrag.rectangleMesh((0, 0), (2, 1), 8, 4)
-    assert solver.addTriangles(nodes, triangles, material='m') == 0
-    assert np.array_equal(solver.nodes, nodes) and np.array_equal(solver.triangles, triangles)
-    assert len(O.bodies) == 24
-
-
 def test_clockwiseOutlineKeepsItsFlags():
     kinds = []
     for order in (1, -1):
         O.reset()
-        solver = fe()
-        flags = [True, False, False, True][::order]
-        solver.addPolygon(kSquare[::order], size=.5, material='m', smooth=flags)
+        bodyOf(kSquare[::order], .5, smooth=[True, False, False, True][::order])
         kinds.append({tuple(np.round(b.shape.middle, 6)[:2]) for b in O.bodies if b.shape.kind == 3})
     assert kinds[0] == kinds[1] == {(0, 0), (0, .5), (0, 1)}
 
@@ -127,16 +114,6 @@ def test_runCallsInBetween():
     called = []
     assert runSteps(25, every=10, call=lambda: called.append(O.iter)) == 25
     assert called == [10, 20] and O.iter == 25
-
-
-def test_minimalAngle():
-    O.materials.append(FEMat(young=1e7, density=1000, label='m'))
-    fe = FESolver()
-    assert fe.minAngle == np.inf
-    fe.addTriangles([(0, 0), (1, 0), (1, 1)], [(0, 1, 2)], material='m')
-    assert fe.minAngle == pytest.approx(np.pi / 4)
-    fe.addPolygon(rectangle((2, 0), (3, 1)), size=.1, material='m')
-    assert np.pi / 6 < fe.minAngle <= np.pi / 4 + 1e-12
 
 
 # --- engines(fe, spheres=True), and engines that a script lists
@@ -172,9 +149,7 @@ CHOICES = {
 
 def scene(**choices):
     """A sphere above y = 0, beside a body of finite elements on which another one falls."""
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((1, -.2), (1.4, 0)), size=.1, material='m', thickness=.1,
-                      fixed=lambda x, y: y < -.199)
+    solver = bodyOf(yadefrag.rectangle((1, -.2), (1.4, 0)), .1, thickness=.1, fixed=lambda x, y: y < -.199)
     for x in (0, 1.2):
         throwBall((x, RADIUS + 1e-4), RADIUS, (0, -1))
     ready(solver, .2, spheres=True, **choices)
@@ -233,9 +208,8 @@ def test_missingFunctorsOfListedEnginesAreNamed(lacking, shape, loop, collider):
 
 def test_clumpsOfSpheresTouchEverything():
     """A clump falls on a wall and on a body of finite elements at once."""
-    solver = fe(linearViscosity=.1)
-    solver.addPolygon(yadefrag.rectangle((0, -.2), (.4, 0)), size=.1, material='m', thickness=.1,
-                      fixed=lambda x, y: y < -.199)
+    solver = bodyOf(yadefrag.rectangle((0, -.2), (.4, 0)), .1, solver=dict(linearViscosity=.1), thickness=.1,
+                    fixed=lambda x, y: y < -.199)
     O.bodies.append(utils.box((-.3, -.1, 0), (.3, .1, .2), fixed=True, material='m'))
     number, _ = O.bodies.appendClumped([utils.sphere((x, .051, 0), .05, material='m') for x in (-.08, 0, .08)])
     O.bodies[number].state.blockedDOFs = 'zXY'
@@ -266,8 +240,8 @@ def accelerations(solver, ball, count=20):
 @pytest.mark.parametrize('how', ['gravity=', 'fe.gravity', 'none', 'listed'])
 @pytest.mark.parametrize('isSaved', [False, True])
 def test_changedGravityReachesAllBodies(how, integrator, isSaved, folder):
-    solver = fe(**(dict(gravity=(0, -9.81)) if how == 'fe.gravity' else {}))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m', thickness=.1)
+    solver = bodyOf(yadefrag.rectangle((0, 0), (.1, .1)), .05, thickness=.1,
+                    solver=dict(gravity=(0, -9.81)) if how == 'fe.gravity' else {})
     ball = throwBall((.5, .3), .05)
     O.engines = yadefrag.engines(solver, spheres=True, integrator=integrator,
                                  **(dict(gravity=(0, -9.81)) if how == 'gravity=' else {}))
@@ -296,8 +270,7 @@ def test_changedGravityReachesAllBodies(how, integrator, isSaved, folder):
 
 
 def test_gravityStaysWithoutIntegrator():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m')
+    solver = bodyOf(yadefrag.rectangle((0, 0), (.1, .1)), .05)
     ready(solver, .5, moving=True, gravity=(0, -2))
     steps(5)
     O.engines = yadefrag.engines(solver)
@@ -328,9 +301,7 @@ def test_timeStepperOfYadeIsNamed():
 @pytest.mark.parametrize('place', [(.2, .08), (.2, .0499)])
 def test_relaxWaitsForSpheres(place):
     """A sphere falls from 30 mm; the other one begins at rest with its contact, nearly without force."""
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, -.1), (.4, 0)), size=.1, material='m', thickness=.1,
-                      fixed=lambda x, y: y < -.0999)
+    solver = bodyOf(yadefrag.rectangle((0, -.1), (.4, 0)), .1, thickness=.1, fixed=lambda x, y: y < -.0999)
     ball = throwBall(place, .05)
     ready(solver, .5, spheres=True, gravity=(0, -9.81))
     solver.relax()

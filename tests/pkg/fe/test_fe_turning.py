@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, O, reloaded, run, steps
+from fe_scene import bodyOf, fe, O, reloaded, run, steps
 from yade import utils
 from yade import wrapper as w
 from yadefrag import engines, rectangle, rectangleMesh
@@ -20,15 +20,13 @@ def everywhere(x, y):
 
 def drum(**settings):
     """A ring of radius 1 about CENTRE."""
-    solver = fe()
-    solver.addPolygon(*yadefrag.ring(CENTRE, .7, 1, 32), size=.3, material='m', **settings)
+    solver = bodyOf(yadefrag.ring(CENTRE, .7, 1, 32), .3, **settings)
     run(solver)
     return solver
 
 
-def block(**settings):
-    solver = fe(**settings)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+def block(size=.5, material=None, **settings):
+    solver = bodyOf(rectangle((0, 0), (1, 1)), size, material, **settings)
     run(solver)
     return solver
 
@@ -85,20 +83,14 @@ def test_heldNodesOfABodyThatIsThrownTurnAboutItsCentroid():
 
 
 def test_oneHeldNodeTurnsAboutTheCentroid():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', spin=20.,
-                      fixed=lambda x, y: x + y < 1e-9)
-    run(solver)
+    solver = block(spin=20., fixed=lambda x, y: x + y < 1e-9)
     steps(300)
     assert np.linalg.norm(solver.nodes[solver.reactions.any(axis=1)][0] - .5) == \
         pytest.approx(math.sqrt(.5), abs=1e-12)
 
 
 def test_heldNodesWithOtherVelocitiesGoOnStraight():
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', fixed=everywhere,
-                      velocity=lambda x, y: (.1 * x, 0))
-    run(solver)
+    solver = block(fixed=everywhere, velocity=lambda x, y: (.1 * x, 0))
     before = solver.nodes
     steps(50)
     assert solver.nodes == pytest.approx(before * [1 + .1 * solver.time, 1], abs=1e-12)
@@ -145,9 +137,7 @@ def test_velocitiesByNodeTablesAndFunctions():
 
 def test_crackedNodesMoveOn():
     """Both halves of a plate that is pulled apart by its turning ends; new nodes turn, too."""
-    solver = fe(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3, label='b'))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='b')
-    run(solver)
+    solver = block(.2, w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3))
     chosen = np.nonzero(solver.nodes[:, 1] > .7)[0]
     solver.rotate(chosen, 5., (0, 0))
     distance = np.linalg.norm(solver.nodes, axis=1)
@@ -202,7 +192,7 @@ def test_functionsThatFailStopTheStepUnharmed(value, sentence):
 
 def test_namesAreTakenOnce():
     solver = fe()
-    place = [yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)) for k in range(2)]
+    place = [rectangle((2 * k, 0), (2 * k + 1, 1)) for k in range(2)]
     assert solver.addPolygon(place[0], size=.5, material='m', name='anvil') == 0
     solver.removeBody('anvil')
     assert solver.addPolygon(place[1], size=.5, material='m', name='anvil') == 1

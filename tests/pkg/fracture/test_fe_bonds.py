@@ -8,7 +8,7 @@ import pytest
 
 import outline_files as touching
 import yadefrag
-from fe_scene import brittle, cracks, engines, heard, momentum, O, ready
+from fe_scene import bodyOf, brittle, cracks, engines, heard, momentum, O, ready
 from outline_files import area
 from yade import utils, wrapper as w
 
@@ -152,70 +152,27 @@ def test_digitisedMasonryIsBondedWithoutSnapping():
     assert len(solver.fragments()) == 1
 
 
-def test_cornersThatAreJoinedAreReported():
+def shifted():
+    """A block on another one, 1 mm beside its corner."""
     solver = solverOf()
     for low, high in (((0, 0), (.2, .1)), ((.001, .1), (.2, .2))):
         solver.addPolygon(yadefrag.rectangle(low, high), size=.02, material='m')
-    with pytest.warns(UserWarning, match=r'bond: a corner of an outline was moved by up to 0.001 m'):
-        assert solver.bond(0, 1, 1e6, 1e4) == 10
-
-
-def test_sidesThatCannotBeJoinedAreReportedAndNothingChanges():
-    solver = solverOf()
-    for low, high in (((0, 0), (.2, .1)), ((.001, .1), (.2, .2))):
-        solver.addPolygon(yadefrag.rectangle(low, high), size=.02, material='m')
-    solver.prescribe(lambda x, y: True, vx=[(0, 0), (1, 1)], vy=0)
-    nodes, triangles = solver.nodes, solver.triangles
-    with pytest.raises(ValueError, match='sides of the bodies 0 and 1 coincide but have different ends'):
-        solver.bond(0, 1, 1e6, 1e4)
-    assert np.array_equal(solver.nodes, nodes) and np.array_equal(solver.triangles, triangles)
-    assert solver.crackCounts == dict(open=0, damaged=0, whole=0)
-    with pytest.raises(ValueError, match='bondAll: 20 sides within 1e-06 m of another body are not bonded'):
-        solver.bondAll(1e-6, 1e6, 1e4)
-
-
-# --- strength and fracture energy by place
-
-kBarLength, kBarHeight, kWeak, kWeakEnergy, kRate = .1, .02, 5e6, 60., 20.
-
-
-def inBand(x):
-    return abs(x - .7 * kBarLength) < .004
-
-
-def weakBar(**given):
-    """A bar that is drawn at a constant rate of strain; its stress is even."""
-    solver = w.FESolver()
-    material = brittle(young=1e9, poisson=0, density=1000, planeStress=True, fractureEnergy=1000, tensileStrength=50e6)
-    wanted = dict(strength=lambda x, y: kWeak if inBand(x) else 50e6,
-                  fractureEnergy=lambda x, y: kWeakEnergy if inBand(x) else 1000)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (kBarLength, kBarHeight)), size=.002, material=material,
-                      velocity=lambda x, y: (kRate * (x - kBarLength / 2), 0), fixed=lambda x, y: 'x' if x < 1e-9
-                      or x > kBarLength - 1e-9 else False, **{**wanted, **given})
-    engines(solver, factor=.4)
     return solver
 
 
-def breakAtItsStrength(solver):
-    """The stress when the first edge cracks is the weakest strength, to the node's mean of stresses."""
-    while solver.numCracks == 0:
-        O.step()
-    assert 1e9 * kRate * O.time == pytest.approx(kWeak, rel=.02)
-    while len(solver.fragments()) < 2 and O.time < 2e-3:
-        O.run(50, True)
+def test_cornersThatAreJoinedAreReported():
+    with pytest.warns(UserWarning, match=r'bond: a corner of an outline was moved by up to 0.001 m'):
+        assert shifted().bond(0, 1, 1e6, 1e4) == 10
 
 
-def test_arraysAreTheSameAsFunctions():
-    first = weakBar()
-    middles = (first.nodes[first.triangles]).mean(axis=1)
-    O.run(700, True)
-    nodes, energy = first.nodes, first.energy
-    O.reset()
-    again = weakBar(strength=np.array([kWeak if inBand(x) else 50e6 for x, _ in middles]),
-                     fractureEnergy=[kWeakEnergy if inBand(x) else 1000 for x, _ in middles])
-    O.run(700, True)
-    assert again.numCracks > 0
-    assert np.array_equal(again.nodes, nodes) and again.energy == energy
+def test_sidesThatCannotBeJoinedAreReported():
+    """That nothing changes: Conform.ARefusedBondLeavesTheWorldUnchanged of tests/fracture."""
+    solver = shifted()
+    solver.prescribe(lambda x, y: True, vx=[(0, 0), (1, 1)], vy=0)
+    with pytest.raises(ValueError, match='sides of the bodies 0 and 1 coincide but have different ends'):
+        solver.bond(0, 1, 1e6, 1e4)
+    with pytest.raises(ValueError, match='bondAll: 20 sides within 1e-06 m of another body are not bonded'):
+        solver.bondAll(1e-6, 1e6, 1e4)
 
 
 # --- joints
@@ -223,11 +180,8 @@ def test_arraysAreTheSameAsFunctions():
 kJoint = [((.03, .01), (.07, .01))]
 
 
-def plate(**given):
-    solver = w.FESolver()
-    wanted = dict(size=.004, material=brittle(fractureEnergy=20), joints=kJoint)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .02)), **{**wanted, **given})
-    return solver
+def plate(joints=kJoint, **given):
+    return bodyOf(yadefrag.rectangle((0, 0), (.1, .02)), .004, brittle(fractureEnergy=20), joints=joints, **given)
 
 
 def test_anOpenJointIsTwoFacesFromTheStart():
@@ -242,22 +196,6 @@ def test_anOpenJointIsTwoFacesFromTheStart():
     engines(cut)
     O.run(20, True)
     assert abs(cut.energy['total']) < 1e-20  # rounding
-
-
-def test_aJointThroughABodyMakesTwo():
-    solver = plate(joints=[((.05, -1), (.05, 1))])
-    assert len(solver.fragments()) == 2
-    assert sum(f['mass'] for f in solver.fragments()) == pytest.approx(2500 * .002)
-
-
-def test_jointsHoldUpToTheirOwnStrength():
-    solver = weakBar(strength=None, fractureEnergy=None, joints=[((.07, 0), (.07, .02))],
-                      jointStrength=kWeak, jointEnergy=kWeakEnergy)
-    breakAtItsStrength(solver)
-    assert np.all(np.abs(cracks(solver)[:, 0] - .07) < 1e-9)
-    O.run(400, True)
-    # The error goes with how few steps an opening takes (tests/fracture/mode_one_test.cpp).
-    assert solver.energy['fracture'] == pytest.approx(kWeakEnergy * kBarHeight, rel=.01)
 
 
 # --- grains
@@ -302,12 +240,12 @@ def concrete(**more):
 
 def test_anEffectMultipliesWhatAnEdgeHas():
     """Strength by place, scatter, and that of a joint."""
-    O.materials.append(concrete(rateEffect=[(1e-3, 2), (1e3, 2)], strengthScatter=.1))
-    fe = w.FESolver()
-    fe.addPolygon(yadefrag.rectangle((0, 0), (kConcreteLength, kConcreteHeight)), size=.005, material=0,
-                  strength=lambda x, y: kConcreteStrength / 2, joints=[((kConcreteLength / 2, -1), (kConcreteLength / 2, 1))],
-                  jointStrength=kConcreteStrength / 4, jointEnergy=kConcreteEnergy,
-                  velocity=lambda x, y: (50 * x, 0), fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
+    fe = bodyOf(yadefrag.rectangle((0, 0), (kConcreteLength, kConcreteHeight)), .005,
+                concrete(rateEffect=[(1e-3, 2), (1e3, 2)], strengthScatter=.1),
+                strength=lambda x, y: kConcreteStrength / 2,
+                joints=[((kConcreteLength / 2, -1), (kConcreteLength / 2, 1))], jointStrength=kConcreteStrength / 4,
+                jointEnergy=kConcreteEnergy, velocity=lambda x, y: (50 * x, 0),
+                fixed=lambda x, y: x < 1e-9 or x > kConcreteLength - 1e-9)
     ready(fe, .2)
     while fe.numCracks < 20:
         O.run(10, True)
@@ -323,10 +261,8 @@ def test_messagesAndTheStepCountTheLargestFactor():
     said = {}
     for effect in ('none', 'ceb-fip-2010'):
         O.reset()
-        O.materials.append(concrete(rateEffect=effect))
-        fe = w.FESolver()
         with heard() as said[effect]:
-            fe.addPolygon(yadefrag.rectangle((0, 0), (.8, .7)), size=zone / 10, material=0)
+            bodyOf(yadefrag.rectangle((0, 0), (.8, .7)), zone / 10, concrete(rateEffect=effect))
     assert said['none'] == []
     assert len(said['ceb-fip-2010']) == 1
     assert ', with the factor 4.15 of rateEffect: the cohesive zone is 0.08031 m long' in said['ceb-fip-2010'][0]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import (brittle, brittleImpact, fe, heapSpheres, kineticEnergy, momentum, O, ready,
+from fe_scene import (bodyOf, brittle, brittleImpact, heapSpheres, kineticEnergy, momentum, O, ready,
                       requireBodiesAreEntries, steps, throwBall)
 from yade import utils, wrapper as w
 from yadefrag.plots import pictures
@@ -48,6 +48,8 @@ def test_facesOfCracksAreBodies(smooth):
     assert sum(p['mass'] for p in parts) == pytest.approx(masses, rel=1e-13)
     assert sum(p['triangles'] for p in parts) == len(solver.triangles)
     assert solver.energy['total'] == pytest.approx(total, rel=.01)
+    assert solver.minFragmentArea == 0 and solver.dropped == dict(mass=0, momentum=(0, 0), energy=0, count=0)
+    assert 'dropped' not in solver.energy
     of = solver.fragmentOf
     assert np.array_equal(np.bincount(of), [p['triangles'] for p in parts])
     assert all(len(set(of[(solver.triangles == n).any(1)])) == 1 for n in range(0, len(solver.masses), 7))
@@ -236,14 +238,6 @@ def dropping(finder='LebesgueCollider', **values):
     return solver
 
 
-def test_offByDefault():
-    solver = brittleImpact()
-    steps(250)
-    assert solver.minFragmentArea == 0 and min(p['area'] for p in solver.fragments()) < kArea
-    assert solver.dropped == dict(mass=0, momentum=(0, 0), energy=0, count=0)
-    assert 'dropped' not in solver.energy and (solver.fragmentOf >= 0).all()
-
-
 @pytest.mark.parametrize('smooth', [False, True])
 def test_whatGoesIsBooked(smooth):
     """No small fragment is left, nor any body of one; mass and energy are all there."""
@@ -306,10 +300,10 @@ def test_picturesLeaveThemOut(folder):
 def test_contactsOfASphereWithWhatGoesLeaveWithIt(young):
     """A fragment that a sphere presses on takes along the elastic energy of their contacts, and what is then
     exposed below the sphere begins no contact at once."""
-    solver = fe(w.BrittleFEMat(young=5e8, poisson=.2, density=2000, frictionAngle=.4, tensileStrength=2e5,
-                               weibullModulus=6, seed=5, label='plate'), minFragmentArea=3e-4)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .05)), size=.02, material='plate', thickness=.06,
-                      fixed=lambda x, y: x < 1e-9 or x > .4999)
+    solver = bodyOf(yadefrag.rectangle((0, 0), (.5, .05)), .02,
+                    w.BrittleFEMat(young=5e8, poisson=.2, density=2000, frictionAngle=.4, tensileStrength=2e5,
+                                   weibullModulus=6, seed=5), dict(minFragmentArea=3e-4), thickness=.06,
+                    fixed=lambda x, y: x < 1e-9 or x > .4999)
     ball = throwBall((.25, .081), .03, (0, -20), w.FrictMat(young=young, poisson=.2, density=4000, frictionAngle=.4))
     impactEnergy = .5 * ball.state.mass * 20**2
     ready(solver, .3, spheres=True)
@@ -338,7 +332,7 @@ kBodies = {
 }
 
 
-def sphereImpact(kind, size, height, clump, friction=0., young=5e10, part=.5):
+def sphereImpact(kind, size, height, clump=False, friction=0., young=5e10, part=.5):
     """The solver, and the body that hits it at 20 m/s."""
     O.materials.append(w.BrittleFEMat(young=1e10, poisson=.2, density=1800, frictionAngle=friction, tensileStrength=3e6,
                                       fractureEnergy=50, label='brick'))
@@ -374,19 +368,16 @@ def test_neitherEnergyNorMomentumIsCreated(kind, height, clump):
 
 
 # Smooth ones: the sphere touches without a force, or only just not: an arc that cracks is a corner, farther out.
-@pytest.mark.parametrize('kind, size, height, young, part', [
-    ('smooth', .05, .35, 5e10, .25), ('smooth', .05, .3, 5e10, .1), ('rows', .05, .35, 1e9, .8), ('rows', .05, .35, 1e9, .1),
-    ('rows', .05, .35, 2e11, .8), ('rows', .05, .35, 2e11, .1), ('rows', .025, .35, 5e10, .5)])
-def test_noStepSizeOrStiffnessCreatesEnergy(kind, size, height, young, part):
-    solver, body = sphereImpact(kind, size, height, False, young=young, part=part)
+@pytest.mark.parametrize('kind, size, height, settings', [
+    ('smooth', .05, .35, dict(part=.25)), ('smooth', .05, .3, dict(part=.1)), ('rows', .025, .35, {}),
+    ('rows', .05, .35, dict(young=1e9, part=.8)), ('rows', .05, .35, dict(young=1e9, part=.1)),
+    ('rows', .05, .35, dict(young=2e11, part=.8)), ('rows', .05, .35, dict(young=2e11, part=.1)),
+    ('rows', .05, .35, dict(clump=True, friction=.5))])
+def test_noStepSizeOrStiffnessCreatesEnergy(kind, size, height, settings):
+    """Friction takes some."""
+    solver, body = sphereImpact(kind, size, height, **settings)
     before = kineticEnergy(body)
     O.run(int(.002 / O.dt), True)
-    assert -5e-3 < (kineticEnergy(body) - before - solver.energy['outside']) / before < 1e-3
-    assert not any('spheres has created' in sentence for sentence in solver.warnings)
-
-
-def test_frictionOnlyTakesEnergy():
-    solver, body = sphereImpact('rows', .05, .35, True, friction=.5)
-    before = kineticEnergy(body)
-    O.run(int(.002 / O.dt), True)
-    assert kineticEnergy(body) - before - solver.energy['outside'] < 1e-3 * before
+    gain = (kineticEnergy(body) - before - solver.energy['outside']) / before
+    assert gain < 1e-3
+    assert 'friction' in settings or gain > -5e-3 and not any('spheres has created' in one for one in solver.warnings)

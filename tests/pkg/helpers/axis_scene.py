@@ -22,9 +22,10 @@ def body(material, outline, size, **settings):
     return fe
 
 
-def untilTime(fe, time):
+def untilTime(fe, time, steps=20):
+    """Runs so many steps at a time."""
     while fe.time < time:
-        O.run(20, True)
+        O.run(steps, True)
 
 
 def arc(radius, angles):

@@ -20,6 +20,15 @@ def fe(material=None, **settings):
     return w.FESolver(**settings)
 
 
+def bodyOf(outline, size, material=None, solver=None, **body):
+    """A solver, whose attributes are those of `solver`, and one body: of the material, or of the elastic one 'm'. An
+    outline with holes is a pair."""
+    made = fe(material, **(solver or {}))
+    parts = outline if isinstance(outline, tuple) else (outline,)
+    made.addPolygon(*parts, size=size, material=len(O.materials) - 1, **body)
+    return made
+
+
 def block(solver, low, high, size, material='m', **body):
     """Adds a rectangle; its number."""
     return solver.addPolygon(yadefrag.rectangle(low, high), size=size, material=material, **body)
@@ -77,13 +86,12 @@ def impact(name=None, smooth=False, **settings):
     return solver
 
 
-def blow(held=False, **settings):
-    """Two blocks of 1 cm that meet at 20 m/s; `held`: all their nodes keep their velocities."""
-    O.materials.append(w.FEMat(young=210e9, poisson=.3, density=7800))
-    solver = w.FESolver(**settings)
+def blow():
+    """Two blocks of 1 cm that meet at 20 m/s."""
+    solver = fe(w.FEMat(young=210e9, poisson=.3, density=7800))
     for k in range(2):
         nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
-        solver.addTriangles(nodes, triangles, material=0, velocity=(20 * (1 - k), 0), fixed=lambda x, y: held)
+        solver.addTriangles(nodes, triangles, material=0, velocity=(20 * (1 - k), 0))
     run(solver, finder('LebesgueCollider'))
     return solver
 

@@ -76,16 +76,6 @@ def spheresNow():
     return centres, radii
 
 
-def masksNow():
-    """(groupMask (n,), clumpId (n,)) by body id."""
-    n = len(O.bodies)
-    masks, clumps = [0] * n, [-1] * n
-    for body in O.bodies:
-        masks[body.id] = int(body.mask)
-        clumps[body.id] = body.clumpId
-    return masks, clumps
-
-
 def realPairs():
     """{(id1, id2) sorted: cellDist of the larger id} of all real interactions."""
     pairs = {}
@@ -98,10 +88,6 @@ def realPairs():
 def allPairs():
     """The set of (id1, id2), sorted, of all interactions, potential ones included."""
     return {tuple(sorted((i.id1, i.id2))) for i in O.interactions.all()}
-
-
-def spherePairs(pairs):
-    return {k: v for k, v in pairs.items() if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
 
 
 def stepAndCheck(avoid=0, mayMiss=(), steps=1):
@@ -124,10 +110,9 @@ def compare(centres, radii, avoid=0, mayMiss=()):
     hSize = np.array([[O.cell.hSize[r, c] for c in range(3)] for r in range(3)]) \
         if O.periodic else None
     sure, possible = contacts(centres, radii, hSize)
-    masks, clumps = masksNow()
-    sure = masked(sure, masks, avoid, clumps)
-    possible = masked(possible, masks, avoid, clumps)
-    found = spherePairs(realPairs())
+    masks, clumps = {b.id: b.mask for b in O.bodies}, {b.id: b.clumpId for b in O.bodies}
+    sure, possible = (masked(pairs, masks, avoid, clumps) for pairs in (sure, possible))
+    found = {k: v for k, v in realPairs().items() if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
     missed = {p for p in sure if p not in found and not set(p) & set(mayMiss)}
     extra = {p for p in found if p not in possible and not set(p) & set(mayMiss)}
     assert not missed, f'step {O.iter}: {len(missed)} of {len(sure)} contacts missed: ' \
@@ -286,13 +271,13 @@ def _periodic(centres, radii, rows, hSize):
         yield i[keep], j[keep], overlap, slack + 4 * kAbsolute * abs(shift).max(axis=1), dist
 
 
-def masked(pairs, masks, avoid=0, clumps=None):
+def masked(pairs, masks, avoid, clumps):
     """Those of `pairs` that may collide: masks share a bit, not both alike within `avoid`,
-    not members of one clump. masks (n,) ints; clumps (n,) ints, -1: none."""
+    not members of one clump. masks, clumps: {body id: number}; -1: no clump."""
     def may(i, j):
         if not masks[i] & masks[j]:
             return False
         if masks[i] == masks[j] and masks[i] & avoid:
             return False
-        return clumps is None or clumps[i] < 0 or clumps[i] != clumps[j]
+        return clumps[i] < 0 or clumps[i] != clumps[j]
     return {key: value for key, value in pairs.items() if may(*key)}

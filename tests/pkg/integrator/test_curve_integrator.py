@@ -72,18 +72,6 @@ def test_blockedAndNotDamped():
     requireSame(various, dampGravity=False)
 
 
-def test_densityScaling():
-    def scaled(step):
-        if step == 0:
-            for body in O.bodies:
-                body.state.densityScaling = 1 + .1 * (body.id % 7)
-            O.engines = [w.GlobalStiffnessTimeStepper(active=False), *O.engines]
-            O.engines[-1].densityScaling = True
-            assert O.engines[-1].densityScaling
-            O.engines = O.engines[1:]
-    requireSame(change=scaled)
-
-
 kRotations = [dict(rotAlgorithm=name, normalizeEvery=7) for name in ('delValle2023', 'Fincham1992', 'Omelyan1998')
               ] if yade.config.version >= '2025.2' else [{}]
 

@@ -9,40 +9,23 @@ from yade import utils
 import scenes
 from loop_twins import denseHeap, geometries, NAMES, place, requireSame, run
 from scenes import O, heap, state
-from test_laws import cohesive, friction, functors
+from test_laws import friction, functors
 
 
-def frictional(law=None, **sphere):
-    """Functors with attributes of the law and of the geometry of two spheres."""
-    return functors(friction, ({}, {}, law or {}, sphere))
+def frictional(kind='plain'):
+    return functors(friction, friction.options[kind])
 
 
-kFunctors = dict(
-    friction=frictional,
-    distant=lambda: frictional(dict(neverErase=True), interactionDetectionFactor=1.2),
-    traced=lambda: frictional(dict(traceEnergy=True)),
-    rotations=lambda: (geometries('6D'), [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
+kFunctors = dict(friction=frictional, traced=lambda: frictional('traced'))
 
 
-@pytest.mark.parametrize('kind', kFunctors)
 @pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
-@pytest.mark.parametrize('build', [heap, denseHeap])
-def test_bits(kind, collider, build):
-    loop = requireSame(kFunctors[kind], collider=collider, build=build, steps=80 if build is denseHeap else 700)
-    real = O.interactions.countReal()
-    assert build is heap or len(O.interactions) > len(O.bodies)
-    assert loop.fastForces == real
-    # YADE's functors compute the first geometry of a contact.
-    assert (loop.fastGeometries == 0) if kind == 'rotations' else 0 <= real - loop.fastGeometries < 8
-
-
-def test_otherLaws():
-    """One with moments, and one that the loop does not know."""
-    loop = requireSame(lambda: functors(cohesive, cohesive.options['friction']), steps=700,
-                       material=lambda: cohesive.material(momentRotationLaw=True))
-    assert loop.fastForces == O.interactions.countReal()
+def test_otherGeometryAndLaw(collider):
+    """Contacts that have rotations, with a law that does not need them, and a law that the loop does not know."""
+    loop = requireSame(lambda: (geometries('6D'), *frictional()[1:]), 700, collider=collider)
+    assert loop.fastForces == O.interactions.countReal() and loop.fastGeometries == 0
     linear = requireSame(lambda: [geometries(), [w.Ip2_FrictMat_FrictMat_MindlinPhys()],
-                                  [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]], 700)
+                                  [w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]], 700, collider=collider)
     assert linear.fastForces == 0 and linear.fastGeometries > 20
 
 
@@ -122,8 +105,7 @@ def test_callbacksAndSortedLists(isSorted):
 def test_isALoop():
     """YADE's functions find it; wrong arguments are refused as by YADE."""
     loop, _ = run('CurveLoop', kFunctors['friction'](), 4)
-    assert isinstance(loop, w.InteractionLoop) and utils.typedEngine('InteractionLoop') is not None
-    assert utils.typedEngine('InteractionLoop') == loop
+    assert isinstance(loop, w.InteractionLoop) and utils.typedEngine('InteractionLoop') == loop
     with pytest.raises(Exception, match='Exactly 3 lists of functors'):
         w.CurveLoop([])
     with pytest.raises(AttributeError):

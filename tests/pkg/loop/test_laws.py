@@ -72,7 +72,10 @@ def frictMat(**values):
 
 friction = types.SimpleNamespace(
     physics='Ip2_FrictMat_FrictMat_FrictPhys', law='Law2_ScGeom_FrictPhys_CundallStrack', suffix='', material=frictMat,
-    options=dict(most=({}, {}, dict(sphericalBodies=False), dict(avoidGranularRatcheting=False))),
+    options=dict(
+        plain=({}, {}, {}, {}), distant=({}, {}, dict(neverErase=True), dict(interactionDetectionFactor=1.2)),
+        traced=({}, {}, dict(traceEnergy=True), {}),
+        most=({}, {}, dict(sphericalBodies=False), dict(avoidGranularRatcheting=False))),
     check=lambda contacts, values, properties, law: True,
     alter=lambda phys, number, part: setattr(phys, 'kn', 1.1 * phys.kn),
     toggle=lambda properties, law, part: setattr(law, 'neverErase', part == 1),

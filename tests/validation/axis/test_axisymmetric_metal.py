@@ -4,8 +4,8 @@ import math
 import numpy
 import pytest
 from yadefrag import FEMat, PlasticFEMat, rectangle
-from axis_scene import body, STEEL, untilTime
-from fe_scene import O, ready
+from axis_scene import body, O, STEEL, untilTime
+from fe_scene import ready
 
 # --- a bar that is stretched and breaks (Mott 1947)
 

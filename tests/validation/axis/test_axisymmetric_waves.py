@@ -9,12 +9,12 @@ import numpy
 import pytest
 from scipy.optimize import brentq
 from scipy.special import jv
-from yadefrag import FEMat, FESolver, rectangle
-from fe_scene import O, ready
+from yadefrag import FEMat, rectangle
+from axis_scene import BAR, body, DENSITY, O, STEEL, YOUNG
+from fe_scene import ready
 
-RADIUS, YOUNG, DENSITY = .01, 200e9, 7800  # m, Pa, kg/m³
+RADIUS = .01  # m
 RATIOS = .1, .2, .3, .4  # radius over wavelength
-BAR = math.sqrt(YOUNG / DENSITY)  # m/s, of long waves
 
 
 def bodyWaves(poisson):
@@ -69,10 +69,8 @@ def measured(ratio, poisson=.3, parts=8, factor=.5, element=None):
             return radial * math.sin(k * y) * envelope, -axial * math.cos(k * y) * envelope
         return radial * math.cos(k * y) * envelope, axial * math.sin(k * y) * envelope
 
-    O.materials.append(FEMat(young=YOUNG, poisson=poisson, density=DENSITY))
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((0, 0), (RADIUS, length)), size=RADIUS / parts, material=0, element=element,
-                  displacement=lambda x, y: train(x, y, False), velocity=lambda x, y: train(x, y, True))
+    fe = body(FEMat(**{**STEEL, 'poisson': poisson}), rectangle((0, 0), (RADIUS, length)), RADIUS / parts,
+              element=element, displacement=lambda x, y: train(x, y, False), velocity=lambda x, y: train(x, y, True))
     ready(fe, factor)
     x, y = fe._reference.T
     radial, axial = shape(x, theory, k, poisson) * fe.masses * numpy.exp(-1j * k * y)
@@ -124,7 +122,6 @@ def test_errorFallsWithTheSquareOfTheSizeAndNotWithTheStep(ratio):
     """The error of the step is a tenth of that of the mesh, and of the other sign."""
     errors = []
     for settings in ({}, {'parts': 16}, {'factor': .25}):
-        O.reset()
         found, theory = measured(ratio, **settings)
         errors.append(1 - found / theory)
     assert errors[1] == pytest.approx(errors[0] / 4, rel=.15)

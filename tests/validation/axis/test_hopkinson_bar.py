@@ -6,11 +6,11 @@ import math
 
 import numpy
 import pytest
-from yadefrag import FEMat, FESolver, PlasticFEMat, rectangle
-from fe_scene import O, ready
+from yadefrag import FEMat, PlasticFEMat, rectangle
+from axis_scene import BAR as WAVE, body, DENSITY, O, STEEL, YOUNG
+from fe_scene import ready
 
-YOUNG, DENSITY, RADIUS, STRIKER, BAR, SPEED = 200e9, 7800, 6.35e-3, .15, .36, 20  # Pa, kg/m³, m, m, m, m/s
-WAVE = math.sqrt(YOUNG / DENSITY)  # m/s
+RADIUS, STRIKER, BAR, SPEED = 6.35e-3, .15, .36, 20  # m, m, m, m/s
 PULSE, ARRIVAL = 2 * STRIKER / WAVE, .5 * BAR / WAVE  # s; at the gauge of the incident bar
 SPECIMEN_RADIUS, SPECIMEN, SPECIMEN_YOUNG = 4e-3, 4e-3, 70e9  # m, m, Pa
 MESHES = pytest.mark.parametrize('fine, part', [(1, .8), (1.5, .8), (1, .4)], ids=['default', 'refined', 'half step'])
@@ -22,11 +22,10 @@ class Run:
     that of the specimen; `fine` times as many."""
 
     def __init__(self, law=None, radius=RADIUS, fine=1, part=.8):
-        O.materials.append(FEMat(young=YOUNG, poisson=.3, density=DENSITY, frictionAngle=0))
-        self.fe = fe = FESolver(axisymmetric=True)
         self.size = RADIUS / 4 / fine
         length = SPECIMEN if law else 0
-        fe.addPolygon(rectangle((0, -BAR - STRIKER), (RADIUS, -BAR)), size=self.size, material=0, velocity=(0, SPEED))
+        self.fe = fe = body(FEMat(**STEEL), rectangle((0, -BAR - STRIKER), (RADIUS, -BAR)), self.size,
+                            velocity=(0, SPEED))
         fe.addPolygon(rectangle((0, -BAR), (RADIUS, 0)), size=self.size, material=0)
         fe.addPolygon(rectangle((0, length), (radius, length + BAR)), size=self.size, material=0)
         if law:

@@ -7,8 +7,9 @@ import math
 
 import numpy
 import pytest
-from yadefrag import crackTable, FESolver, PlasticFEMat, rectangle
-from fe_scene import O, ready
+from yadefrag import crackTable, PlasticFEMat, rectangle
+from axis_scene import body, O
+from fe_scene import ready
 
 FLYER, DISC, SIZE = 2e-3, 4e-3, 1e-4  # m
 STEEL = dict(young=200e9, poisson=.29, density=7830, yieldStress=1.6e9)  # hard: elastic in these pulses
@@ -31,12 +32,12 @@ class Impact:
     face's nodes, along the axis, at `radii` (k,); `change` of the energy, of all."""
 
     def __init__(self, material, speed, radius, until, flyer=FLYER, fine=1, part=.8, seed=0, **failure):
-        O.materials.append(PlasticFEMat(**material, frictionAngle=0))
+        mesh = dict(mesh='irregular', meshSeed=seed)
+        self.fe = fe = body(PlasticFEMat(**material, frictionAngle=0), rectangle((0, -flyer), (radius, 0)), SIZE / fine,
+                            velocity=(0, speed), **mesh)
+        fe.linearViscosity, fe.quadraticViscosity = .06, 1.2
         O.materials.append(PlasticFEMat(**material, frictionAngle=0, **failure))
-        self.fe = fe = FESolver(axisymmetric=True, linearViscosity=.06, quadraticViscosity=1.2)
-        for low, high, number, velocity in ((-flyer, 0, 0, speed), (0, DISC, 1, 0)):
-            fe.addPolygon(rectangle((0, low), (radius, high)), size=SIZE / fine, material=number,
-                          velocity=(0, velocity), mesh='irregular', meshSeed=seed)
+        fe.addPolygon(rectangle((0, 0), (radius, DISC)), size=SIZE / fine, material=1, **mesh)
         ready(fe, part)
         start, rows = fe.energy['total'], []
         rear = numpy.flatnonzero(fe._reference[:, 1] > DISC - 1e-9)

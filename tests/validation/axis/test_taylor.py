@@ -3,17 +3,17 @@
 docs/data/taylor.csv, a table of docs/materials.md, has the measured lengths and feet (mm), and those computed with the
 constants of that page, without friction and with a coefficient of .1, which those who measured do not state.
 """
-import pathlib
 import re
 import sys
 
 import numpy
 import pytest
 from yade import utils
-from yadefrag import FESolver, PlasticFEMat, rectangle
-from fe_scene import O, ready
+from yadefrag import PlasticFEMat, rectangle
+from axis_scene import body, O, untilTime
+from fe_scene import ready
+from project import ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / 'tests' / 'benchmark'))
 import measured_tables  # noqa: E402
 
@@ -37,20 +37,16 @@ def constants(material):
 def hit(row, friction=0., parts=8, factor=.5, mesh=None, **changed):
     """(mm) Length, diameter of the foot, and diameter at a fifth of the first length, after 1.5 times the time in which
     the cylinder stopped; it has then left the wall."""
-    O.reset()
     radius, length = float(row['diameter']) / 2e3, float(row['length']) / 1e3
-    O.materials.append(PlasticFEMat(**{**constants(row['material']), **changed}, frictionAngle=numpy.arctan(friction)))
-    fe = FESolver(axisymmetric=True)
-    fe.addPolygon(rectangle((0, 0), (radius, length)), size=radius / parts, material=0, mesh=mesh,
-                  velocity=(0, -float(row['speed'])))
+    material = PlasticFEMat(**{**constants(row['material']), **changed}, frictionAngle=numpy.arctan(friction))
+    fe = body(material, rectangle((0, 0), (radius, length)), radius / parts, mesh=mesh,
+              velocity=(0, -float(row['speed'])))
     O.bodies.append(utils.wall((0, 0, 0), axis=1, material=0))
     ready(fe, factor)
     before = fe.energy['total']
     while fe.masses @ fe.velocities[:, 1] < 0:
         O.run(50, True)
-    stopped = fe.time
-    while fe.time < 1.5 * stopped:
-        O.run(50, True)
+    untilTime(fe, 1.5 * fe.time, 50)
     assert fe.energy['total'] == pytest.approx(before, rel=1e-4)
     assert fe.energy['plastic'] + fe.energy['friction'] > .95 * before
     x, y = fe.nodes.T

@@ -19,7 +19,8 @@ import numpy as np  # noqa: E402
 
 import scenes  # noqa: E402
 import yadefrag  # noqa: E402
-from fe_scene import brittle, brittleImpact, engines, heapSpheres, solverOfScene, steps, throwBall  # noqa: E402
+from fe_scene import (bodyOf, brittle, brittleImpact, engines, heapSpheres, solverOfScene, steps,  # noqa: E402
+                      throwBall)
 from scenes import O  # noqa: E402
 from yade import utils, wrapper as w  # noqa: E402
 from yade.minieigenHP import Vector3  # noqa: E402
@@ -167,9 +168,7 @@ def run(name, periodic):
 # --- finite elements
 
 def buildFE():
-    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
-    fe = w.FESolver()
-    fe.addPolygon(yadefrag.circle((0, 0), .1, 12), size=.05, material='m', velocity=(2, 0), smooth=True)
+    fe = bodyOf(yadefrag.circle((0, 0), .1, 12), .05, velocity=(2, 0), smooth=True)
     fe.addPolygon(yadefrag.rectangle((.102, -.1), (.2, .1)), size=.05, material='m')
     throwBall((.15, .151), .05, (0, -1), blocked='')
     engines(fe)
@@ -193,9 +192,8 @@ def refuse(fe):
 def crack(finder):
     """A block that shatters: new bodies, bodies that go, saved in between."""
     O.reset()
-    O.materials.append(brittle(frictionAngle=.2, strengthScatter=.1, label='b'))
-    fe = w.FESolver(minFragmentArea=6e-6)
-    fe.addPolygon(yadefrag.rectangle((0, 0), (.02, .012)), size=.003, material='b', smooth=True)
+    fe = bodyOf(yadefrag.rectangle((0, 0), (.02, .012)), .003, brittle(frictionAngle=.2, strengthScatter=.1, label='b'),
+                dict(minFragmentArea=6e-6), smooth=True)
     fe.addPolygon(yadefrag.rectangle((.008, .0121), (.014, .018)), size=.003, material='b', velocity=(0, -60))
     engines(fe, finder)
     steps(60)

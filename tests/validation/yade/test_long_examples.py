@@ -9,13 +9,12 @@ from project import cells, checkReports, figures, kShort, numbers, rows, run
 kColliders = ('Lebesgue', 'LinearCode', 'Hierarchy', 'InsertionSort')
 
 
-@pytest.mark.parametrize('passes', ['1', '2'])
 @pytest.mark.parametrize('name', kShort)
-def test_physicsOfTheExample(name, passes):
-    out, _ = run(name, *kShort[name], '--passes', passes, '--no-pictures')
+def test_physicsOfTheExampleInTwoPasses(name):
+    """In one: test_physicsAndPicturesOfTheExample."""
+    out, _ = run(name, *kShort[name], '--passes', '2', '--no-pictures')
     for report in checkReports(name, out):
-        if passes == '2':
-            assert numbers(report['deepest penetration'])[0] < 1e-3
+        assert numbers(report['deepest penetration'])[0] < 1e-3
 
 
 @pytest.mark.parametrize('name', kShort)

@@ -18,11 +18,11 @@ kChecks = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 kExamples = '/usr/share/doc/yade/examples/mpi'
 kRadius = .5
 kLimit = 120        # s, for one run; a few seconds on an idle machine
-#Forces of a body are added in another order, since its contacts are : rounding, of 17 m positions,
-#amplified by some collisions.
+# Forces of a body are added in another order, since its contacts are: rounding, of 17 m positions,
+# amplified by some collisions.
 kRounding = 1e-12 * kRadius
-#YADE's examples run for 1000 or 2000 steps. In testMPI_2D_MergeCPP.py two colliders in one process,
-#both with a search at every step, differ by 4·10⁻⁹ m.
+# YADE's examples run for 1000 or 2000 steps. In testMPI_2D_MergeCPP.py two colliders in one process,
+# both with a search at every step, differ by 4·10⁻⁹ m.
 kParted = 1e-7 * kRadius
 
 pytestmark = pytest.mark.skipif('MPI' not in yade.config.features, reason='this YADE is built without MPI')
@@ -50,15 +50,12 @@ def merged(reports):
 
 
 def moment(report):
-    return report['bodies'], {(a, b): depth for a, b, depth in report['contacts']
-}
+    return report['bodies'], {(a, b): depth for a, b, depth in report['contacts']}
 
-def united(reports)
-    : ""
-      "(bodies, contacts) that the processes have among them; both of a contact's have it."
-      "" bodies,
-      contacts = {},
-{}
+
+def united(reports):
+    """(bodies, contacts) that the processes have among them; both of a contact's have it."""
+    bodies, contacts = {}, {}
     for report in reports:
         assert not bodies.keys() & report['bodies'].keys(), 'a body that belongs to two processes'
         bodies.update(report['bodies'])
@@ -120,16 +117,14 @@ def test_facetsAndSizes(once, alone):
     uses its own bodies, and the master, without spheres, searches at every step.)"""
     reports = once(4, 'LebesgueCollider', 'gasRun')
     compare(alone('gasRun'), merged(reports))
-    assert {r['verletDist'] for r in once(1, 'LebesgueCollider', 'gasRun') + reports
-      } == {
+    assert {r['verletDist'] for r in once(1, 'LebesgueCollider', 'gasRun') + reports} == {
         reports[0]['verletDist']}
     assert max(r['searches'] for r in reports) < 200     # steps
 
 
 def test_bodiesThatChangeTheirProcess(once, alone):
     reports = once(3, 'LebesgueCollider', 'changing')
-    assert {r['changed'] for r in reports
-    } == {reports[0]['changed']}
+    assert {r['changed'] for r in reports} == {reports[0]['changed']}
     assert reports[0]['changed'] > 5
     compare(alone('gasRun'), merged(reports))
 
@@ -138,8 +133,7 @@ def test_mergeSplitAndErase(once, alone):
     one, three = (once(ranks, 'LebesgueCollider', 'mergeAndSplit')[0] for ranks in (1, 3))
     for expected, found in zip(one['moments'], three['moments'], strict=True):
         compare(moment(expected), moment(found))
-    assert not {str(k) for k in three['gone']
-    } & three['bodies'].keys()
+    assert not {str(k) for k in three['gone']} & three['bodies'].keys()
     compare(moment(one), moment(three))
     assert re.fullmatch(r'Body #\d+ is not the same in the merged scene and in the process that owns it: .*',
                         three['message'])
@@ -250,9 +244,10 @@ def test_yadesCheck():
     assert [r['isIn'] for r in reports] == [['LebesgueCollider']] * 4
     assert len(reports[0]['bodies']) == 7501
 
-#The others need more processes than fit here(testMPI_3D_bisection.py, six), are written in Python 2
-#(testMPI_3D.py), call mpy without an argument that it requires(testMPI_2D_interactive.py), have no
-#contact(reallocateBodies.py) or no collider(helloMPY.py).
+
+# The others need more processes than fit here (testMPI_3D_bisection.py, six), are written in Python 2
+# (testMPI_3D.py), call mpy without an argument that it requires (testMPI_2D_interactive.py), have no
+# contact (reallocateBodies.py) or no collider (helloMPY.py).
 kNoExamples = pytest.mark.skipif(not os.path.isdir(kExamples), reason="YADE's examples are not installed")
 
 
