@@ -24,48 +24,63 @@ SEED = 'seed'  # runs that differ in it only are repetitions
 
 
 @dataclasses.dataclass
-class TradeoffRow:
-    """One setting and its result.
+class EnsembleRow:
+    """One run and its result.
 
-    settings    dict of choices: those varied, and the scene's own ones that it used
-    result      'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or
-                'not run'
-    wall, cpu   wall-clock and processor time over simulated time (s/s), medians; None without any
-    error       relative to the reference (absolute if that is 0); None without any
-    value       the measured value, a number or a list
-    steps       of one run
-    walls, cpus of the single runs (s/s), in their order
-    seconds     wall-clock time of the steps of a run (s), median
-    warnings    messages of its runs: those of fe.warnings, and Python's of the script
+    settings  dict of the scene's choices
+    result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not
+              run'
+    value     the measured value, a number or a list, or a dict of these by quantity; None without
+    steps     number of steps
+    wall      wall-clock time of the steps over simulated time (s/s), large for short scenes
+    seconds   wall-clock time of the steps (s)
+    warnings  messages of the run: those of fe.warnings, and Python's of the script
     """
 
     settings: dict
     result: str = 'not run'
-    wall: float | None = None
-    cpu: float | None = None
-    error: float | None = None
     value: Any = None
     steps: int | None = None
-    walls: list = dataclasses.field(default_factory=list)
-    cpus: list = dataclasses.field(default_factory=list)
+    wall: float | None = None
     message: str = ''
     seconds: float | None = None
     warnings: list = dataclasses.field(default_factory=list)
 
     def take(self, found: dict[str, Any]) -> None:
+        """Stores the result of a run."""
+        for name in columnsOf(EnsembleRow):
+            setattr(self, name, found.get(name, [] if name == 'warnings' else None))
+
+
+@dataclasses.dataclass
+class TradeoffRow(EnsembleRow):
+    """One setting and the result of its runs, as in an EnsembleRow; times are medians.
+
+    settings    those varied, and the scene's own ones that it used
+    cpu         processor time over simulated time (s/s)
+    error       relative to the reference (absolute if that is 0); None without any
+    walls, cpus of the single runs (s/s), in their order
+    """
+
+    cpu: float | None = None
+    error: float | None = None
+    walls: list = dataclasses.field(default_factory=list)
+    cpus: list = dataclasses.field(default_factory=list)
+
+    def take(self, found: dict[str, Any]) -> None:
         """Stores the result of one run."""
-        self.result, self.message = found['result'], found['message']
-        self.warnings += [one for one in found.get('warnings', ()) if one not in self.warnings]
+        said = self.warnings
+        super().take(found)
+        self.warnings = list(dict.fromkeys([*said, *self.warnings]))
         for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
             if value is not None:
                 self.settings.setdefault(name, value)
         if self.result != 'ok':
-            self.walls, self.cpus, self.wall, self.cpu, self.value, self.seconds = [], [], None, None, None, None
+            self.walls, self.cpus, self.cpu = [], [], None
             return
         self.walls.append(found['wall'])
         self.cpus.append(found['cpu'])
         self.wall, self.cpu = statistics.median(self.walls), statistics.median(self.cpus)
-        self.steps, self.value = found['steps'], found['value']
         self.seconds = found['seconds'] * self.wall / found['wall']
 
 
@@ -93,7 +108,7 @@ class Table:
 
     def csv(self, file: File) -> None:
         """Writes all rows: the settings, then what is known of each run; values as JSON, an empty cell for None."""
-        names, columns = dict.fromkeys(name for row in self.rows for name in row.settings), columnsOf(self._ROW)
+        names, columns = namesOf(self.rows), columnsOf(self._ROW)
         out = io.StringIO(newline='')
         writer = csv.writer(out)
         writer.writerow([*names, *columns])
@@ -113,6 +128,11 @@ def columnsOf(kind: type[Any]) -> tuple[str, ...]:
     return tuple(one.name for one in dataclasses.fields(kind)[1:])
 
 
+def namesOf(rows: Iterable[Any]) -> list[str]:
+    """Names of all choices, in the order in which they first occur."""
+    return list(dict.fromkeys(name for row in rows for name in row.settings))
+
+
 class TradeoffTable(Table):
     """rows (list of TradeoffRow), title, by (names of choices that make another problem), references (rows
     that are the reference for the others of their problem); reference is the first of these, or None.
@@ -129,10 +149,6 @@ class TradeoffTable(Table):
     @property
     def reference(self) -> TradeoffRow | None:
         return self.references[0] if self.references else None
-
-    @reference.setter
-    def reference(self, row: TradeoffRow | None) -> None:
-        self.references = [] if row is None else [row]
 
     def cases(self) -> list[tuple[dict[str, Any], list[TradeoffRow]]]:
         """[(dict of settings, rows)]: the rows of one problem each, by `by` and the seed."""
@@ -160,7 +176,7 @@ class TradeoffTable(Table):
 
     def names(self) -> list[str]:
         """Names of all choices, in the order in which they first occur."""
-        return list(dict.fromkeys(name for row in self.rows for name in row.settings))
+        return namesOf(self.rows)
 
     def label(self, row: TradeoffRow) -> str:
         """Difference of a row from the first: 'passes=2'; 'row 1' for that one."""
@@ -214,9 +230,9 @@ class TradeoffTable(Table):
             except csv.Error as error:
                 raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
-        columns = columnsOf(TradeoffRow)
-        if tuple(head[-len(columns):]) != columns:
-            raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(columns)))
+        missing = [column for column in columnsOf(TradeoffRow) if column not in head]
+        if missing:
+            raise ValueError('%s is without the columns %s.' % (shownPath(name), ', '.join(missing)))
         rows = [_row(head, line) for line in lines[1:]]
         if None in rows:
             raise ValueError('%s has a damaged row, the one after %d others.' % (shownPath(name), rows.index(None)))
@@ -304,9 +320,9 @@ def _row(head, line):
     """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
     if len(line) != len(head):
         return None
-    cells, count = [_decode(cell) for cell in line], len(columnsOf(TradeoffRow))
-    settings = {n: v for n, v in zip(head, cells[:-count]) if v is not None}
-    row = TradeoffRow(settings, *cells[-count:])
+    cells = dict(zip(head, map(_decode, line)))
+    known = {name: cells.pop(name) for name in columnsOf(TradeoffRow)}
+    row = TradeoffRow({name: value for name, value in cells.items() if value is not None}, **known)
     row.message, row.warnings = row.message or '', row.warnings or []
     isRight = (isinstance(row.result, str) and isinstance(row.message, str)
                and all(real(value) is not None or value is None and row.result != 'ok'
@@ -341,14 +357,13 @@ def varying(rows: Sequence[Any]) -> list[str]:
 
     A sample is a number that is another one in each of several runs, as drawn from a distribution.
     """
-    names = dict.fromkeys(name for row in rows for name in row.settings)
-    return [name for name in names if name != SEED and len(_values(rows, name)) > 1 and not _isSample(rows, name)]
+    return [name for name in namesOf(rows) if name != SEED and not _isSample(rows, name)
+            and len({repr(row.settings.get(name)) for row in rows}) > 1]
 
 
 def samples(rows: Sequence[Any]) -> list[str]:
     """Names of the settings that are another number in each run, without the seed."""
-    return [name for name in dict.fromkeys(n for row in rows for n in row.settings)
-            if name != SEED and _isSample(rows, name)]
+    return [name for name in namesOf(rows) if name != SEED and _isSample(rows, name)]
 
 
 def grouped(rows: Sequence[Row], names: Iterable[str]) -> list[tuple[dict[str, Any], list[Row]]]:
@@ -358,10 +373,6 @@ def grouped(rows: Sequence[Row], names: Iterable[str]) -> list[tuple[dict[str, A
         of = {name: row.settings[name] for name in names if name in row.settings}
         groups.setdefault(repr(of), (of, []))[1].append(row)
     return list(groups.values())
-
-
-def _values(rows, name):
-    return {repr(row.settings.get(name)) for row in rows}
 
 
 def _isSample(rows, name):
