@@ -145,7 +145,7 @@ def _newBeside(target):
 
 
 def _special(target):
-    """True for a device or a pipe; IsADirectoryError for a folder."""
+    """The name of a device or a pipe; IsADirectoryError for a folder."""
     if stat.S_ISDIR(os.stat(target).st_mode):
         raise IsADirectoryError(21, os.strerror(21), target)
     return target

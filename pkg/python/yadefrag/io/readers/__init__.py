@@ -9,12 +9,12 @@ which returns Elements.
 from __future__ import annotations
 
 import collections
+import contextlib
 import dataclasses
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import ModuleType
-from typing import NoReturn
 
 import numpy
 from numpy.typing import ArrayLike
@@ -35,7 +35,7 @@ class Found:
     lines    arrays (n, 2), the points of an unbroken line, closed if the last equals the first one
     regions  (outline, [holes]) of arrays (n, 2) without the first point repeated at the end
     leftOut  {what, in the plural: number}: what a viewer shows and the reader does not read, and what
-             the file contains and a viewer does not show
+             the file contains and a viewer does not show; numbers of 0 end in `add`
     """
 
     def __init__(self, lines: Iterable = (), regions: Iterable = ()) -> None:
@@ -58,10 +58,17 @@ def needed(module: str, package: str, file: str) -> ModuleType:
     return messages.needed(module, package, shownPath(file) + ' can be read')
 
 
-def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
-    """ValueError: the contents of `file` do not match its ending; `error` is the library's exception."""
-    words = ' '.join(str(error).split()).rstrip('.')[:120]
-    raise ValueError('%s is not a readable %s: %s.' % (shownPath(file), kind, words or type(error).__name__)) from None
+@contextlib.contextmanager
+def readable(file: str, kind: str) -> Iterator[None]:
+    """For `with`: an exception of the library, of Python's parsers, or for missing members of `file` becomes a
+    ValueError: its contents do not match its ending."""
+    try:
+        yield
+    except ImportError:
+        raise
+    except Exception as error:
+        words = ' '.join(str(error).split()).rstrip('.')[:120] or type(error).__name__
+        raise ValueError('%s is not a readable %s: %s.' % (shownPath(file), kind, words)) from None
 
 
 def requireTolerance(tolerance: float | None, file: str, what: str) -> float:

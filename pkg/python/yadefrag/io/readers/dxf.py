@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection
 
 import numpy
 
-from yadefrag.io.readers import Found, bulge, ellipticArc, needed, refuseFile, requireTolerance
+from yadefrag.io.readers import Found, bulge, ellipticArc, needed, readable, requireTolerance
 
 _PACKAGE = 'python3-ezdxf'
 _SPLINE_PIECES = 16  # minimum between two knots: ezdxf checks the middle of a piece only
@@ -23,15 +23,13 @@ def readLayers(name: str, tolerance: float | None, chosen: Collection[str]) -> d
     """{layer: Found}, in the order of the file. `chosen` are names, in lower case, of layers that are
     read even if they are off or frozen."""
     ezdxf = needed('ezdxf', _PACKAGE, name)
-    try:
+    with readable(name, 'DXF file'):
         document, damages = _document(ezdxf, name)
         walk = _Walk(document, chosen)
         if damages:
             walk.skipped(_NAMELESS)['damaged parts of the file'] += damages
         entities = list(walk.shown(document.modelspace()))
         walk.skipPaper()
-    except Exception as error:  # of the library
-        refuseFile(name, 'DXF file', error)
     for layer, entity, matrix in entities:
         found = walk.of(layer)
         reader = _READERS.get(entity.dxftype())

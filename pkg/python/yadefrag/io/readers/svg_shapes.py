@@ -71,8 +71,7 @@ def _painted(item, tolerance, name):
         else:
             found.leftOut['shapes that are not painted'] += 1
     found.regions, covered = _filled(loops, item.rule, name)
-    if covered:
-        found.leftOut['inner lines that the fill covers'] += covered
+    found.leftOut['inner lines that the fill covers'] += covered
     return _clipped(found, item, tolerance, name) if item.clips else found
 
 
