@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from yade import wrapper
-from yadefrag.arguments import FESolver
 from yadefrag.messages import tellNumbers, warn
 
 # These engines apply no forces to bodies, or apply them anew in each step.
@@ -119,11 +118,6 @@ def _outOfPlane(beside, leaving, loose, gravityZ):
         return ['Gravity along z moves sphere #%d out of the plane z = 0 of the FE bodies; block its z, '
                 'or use gravity along y.' % loose]
     return []
-
-
-def addSolver(solver: FESolver) -> None:
-    """Must be called for every solver to which a body is added."""
-    solvers.add(solver)
 
 
 def _isWithoutSolver():
