@@ -14,7 +14,7 @@ from yadefrag.arguments import ArrayLike, File, array, number, real, refuse, tex
 from yadefrag.files import savePicture
 from yadefrag.messages import needed
 from yadefrag.plots.axes import DISTINCT, axesOf
-from yadefrag.studies.tradeoff_table import EnsembleRow, Table, describe, grouped, samples, varying
+from yadefrag.studies.table import EnsembleRow, Table, describe, grouped, samples, varying
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
