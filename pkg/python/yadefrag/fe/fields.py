@@ -170,15 +170,13 @@ def crackTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
 class Energies(dict):
     """Energies (J) by name; 'external' is an alias: the negative of 'outside'."""
 
-    _ALIAS = 'external'
-
     def __missing__(self, name: str) -> float:
-        if name != self._ALIAS:
+        if name != 'external':
             raise KeyError(name)
         return 0. - self['outside']
 
     def __contains__(self, name: object) -> bool:
-        return name == self._ALIAS or dict.__contains__(self, name)
+        return name == 'external' or dict.__contains__(self, name)
 
     def get(self, name: str, default: Any = None) -> Any:
         return self[name] if name in self else default

@@ -9,6 +9,7 @@ import numpy
 
 from yadefrag.arguments import Loop, shown, shownPath
 from yadefrag.io.readers import Found, needed, readable, requireTolerance
+from yadefrag.io.readers.loops import regionOf
 
 _SHAPELY = 'python3-shapely'
 _BETWEEN = str.maketrans(',;"', '   ')
@@ -125,16 +126,11 @@ def _add(found, shape):
     elif shape.is_empty:
         found.leftOut['empty geometries'] += 1
     elif shape.geom_type == 'Polygon':
-        outline, *holes = (_plane(ring)[:-1] for ring in (shape.exterior, *shape.interiors))
-        found.regions.append((outline, holes))
+        found.regions.append(regionOf(shape))
     elif shape.geom_type in ('LineString', 'LinearRing'):
-        found.lines.append(_plane(shape))
+        found.lines.append(numpy.array(shape.coords)[:, :2])
     else:
         found.leftOut['points'] += 1
-
-
-def _plane(line):
-    return numpy.array(line.coords, dtype=float)[:, :2]
 
 
 def readPicture(name: str, tolerance: float | None) -> Found:
