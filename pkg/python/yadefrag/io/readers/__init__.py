@@ -139,17 +139,3 @@ def ellipticArc(centre: ArrayLike, axes: ArrayLike, start: float, sweep: float, 
     pieces = piecesOf(reach * sweep**2, tolerance, math.ceil(abs(sweep) / (math.pi / 4)))
     angles = start + sweep * numpy.arange(pieces + 1)[:, None] / max(pieces, 1)
     return numpy.asarray(centre, dtype=float) + a * numpy.cos(angles) + b * numpy.sin(angles)
-
-
-def bulge(start: ArrayLike, end: ArrayLike, value: float, tolerance: float) -> numpy.ndarray:
-    """(n, 2) points of the arc of a DXF bulge, tan(angle / 4), from `start` to `end`, without the first."""
-    start, end = numpy.asarray(start, dtype=float), numpy.asarray(end, dtype=float)
-    chord = end - start
-    if value == 0 or not chord.any():
-        return end[None]
-    left = numpy.array([-chord[1], chord[0]])
-    centre = (start + end) / 2 + left * (1 - value**2) / (4 * value)
-    arm = start - centre
-    points = ellipticArc(centre, (arm, (-arm[1], arm[0])), 0, 4 * math.atan(value), tolerance)[1:]
-    points[-1] = end
-    return points
