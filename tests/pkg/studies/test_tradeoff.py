@@ -187,6 +187,7 @@ def test_csvComesBack(folder):
                     cpus=[2.])])
     table.csv(file)
     assert TradeoffTable.read(file).rows == table.rows
+    assert TradeoffTable.read(kExamples / 'bars.csv').front()  # an older file, without seconds and warnings
     Path(file).write_text('a,b\n1,2\n')
     with pytest.raises(ValueError, match='is without the columns result, value'):
         TradeoffTable.read(file)

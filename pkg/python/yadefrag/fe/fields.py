@@ -199,13 +199,6 @@ def energy(self: FESolver) -> Energies:
     return Energies(self._energies)
 
 
-def _onlyBody(fe):
-    there = numpy.unique(fe.components).tolist()
-    if len(there) != 1:
-        raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
-    return there[0]
-
-
 def meshQuality(self: FESolver, component: int | str | None = None) -> dict[str, Any]:
     """The shape of the triangles in the stress-free mesh of a body.
 
@@ -220,4 +213,7 @@ def meshQuality(self: FESolver, component: int | str | None = None) -> dict[str,
     """
     requireSolver(self)
     with betweenSteps(self):
-        return dict(self._meshQuality(_onlyBody(self) if component is None else existingBody(self, component)))
+        there = numpy.unique(self.components).tolist() if component is None else [existingBody(self, component)]
+        if len(there) != 1:
+            raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
+        return dict(self._meshQuality(there[0]))

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)', 'cpu': 'processor time over simulated time (s/s)'}
+_LATER = 'seconds', 'warnings'  # columns that older files do not have
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
 # Possible positions of a point's text: offset in points, alignment.
 _SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center', 'top'), (-6, 0, 'right', 'center'),
@@ -154,7 +155,7 @@ class TradeoffTable(Table):
             except csv.Error as error:
                 raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
-        missing = [column for column in columnsOf(TradeoffRow) if column not in head]
+        missing = [column for column in columnsOf(TradeoffRow) if column not in (*head, *_LATER)]
         if missing:
             raise ValueError('%s is without the columns %s.' % (shownPath(name), ', '.join(missing)))
         rows = [_row(head, line) for line in lines[1:]]
@@ -278,7 +279,7 @@ def _row(head, line):
     if len(line) != len(head):
         return None
     cells = dict(zip(head, map(decode, line)))
-    known = {name: cells.pop(name) for name in columnsOf(TradeoffRow)}
+    known = {name: cells.pop(name) for name in columnsOf(TradeoffRow) if name in cells}
     row = TradeoffRow({name: value for name, value in cells.items() if value is not None}, **known)
     row.message, row.warnings = row.message or '', row.warnings or []
     isRight = (isinstance(row.result, str) and isinstance(row.message, str)
