@@ -115,25 +115,22 @@ def appendText(name: str, text: str) -> None:
             raise OSError(error.errno, error.strerror, name) from None
 
 
-def savePicture(figure: Any, file: Any, dpi: float, **settings: Any) -> None:
-    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open file; not for None."""
+def savePicture(figure: Any, file: Any, dpi: float, argument: str = 'file', **settings: Any) -> None:
+    """Saves Matplotlib's `figure` in `file`: an open file, or a path, whose ending determines the format, by default
+    that of Matplotlib; not for None. ValueError, with the name of the argument, for an unknown ending."""
     if file is None:
         return
     if hasattr(file, 'write'):
         figure.savefig(file, dpi=dpi, **settings)
         return
-    with replacing(pictureName(figure, file)) as part:
-        figure.savefig(part, dpi=dpi, **settings)
-
-
-def pictureName(figure: Any, file: Any) -> str:
-    """The path of a picture, with Matplotlib's ending if there is none; ValueError for an unknown ending."""
-    name = path('file', file)
+    name = path(argument, file)
     ending = os.path.splitext(name)[1]
     known = sorted(figure.canvas.get_supported_filetypes())
     if ending and ending[1:].lower() not in known:
-        raise ValueError('file ends with %r, a picture must end with one of .%s.' % (ending[:20], ', .'.join(known)))
-    return name if ending else name + '.' + figure.canvas.get_default_filetype()
+        raise ValueError('%s ends with %r, a picture must end with one of .%s.' %
+                         (argument, ending[:20], ', .'.join(known)))
+    with replacing(name if ending else name + '.' + figure.canvas.get_default_filetype()) as part:
+        figure.savefig(part, dpi=dpi, **settings)
 
 
 def _newBeside(target):
@@ -148,7 +145,7 @@ def _newBeside(target):
 
 
 def _special(target):
-    """True for a device or a pipe; IsADirectoryError for a folder."""
+    """The name of a device or a pipe; IsADirectoryError for a folder."""
     if stat.S_ISDIR(os.stat(target).st_mode):
         raise IsADirectoryError(21, os.strerror(21), target)
     return target

@@ -45,7 +45,10 @@ def describeMismatch(version: str, precision: str, features: Collection[str]) ->
         found, needed = map(', '.join, zip(*wrong))
         return ('this build of yadefrag needs YADE %s as %s, with %s; the running yade '
                 'has %s%s.' % (VERSION, BUILD, needed, found, describeRemedy(version)))
-    return describeUntried(version)
+    if version in ACCEPTED or FEATURES is not None:
+        return ''
+    return ('yadefrag is prepared for YADE %s, but was never tested with it and therefore refuses it; '
+            'it accepts %s.' % (version, ' and '.join(sorted(ACCEPTED))))
 
 
 def describeRemedy(version: str) -> str:
@@ -57,14 +60,6 @@ def describeRemedy(version: str) -> str:
     if version in ACCEPTED:
         return ', for which yadefrag must be built or installed again'
     return '; builds can be for %s' % ' and '.join('YADE %s (%s)' % item for item in sorted(ACCEPTED.items()))
-
-
-def describeUntried(version: str) -> str:
-    """'' unless the layout of `version` is known, but was never tested."""
-    if version in ACCEPTED or FEATURES is not None:
-        return ''
-    return ('yadefrag is prepared for YADE %s, but was never tested with it and therefore refuses it; '
-            'it accepts %s.' % (version, ' and '.join(sorted(ACCEPTED))))
 
 
 def describeSurroundings(modules: Mapping[str, Any] | None = None) -> str:

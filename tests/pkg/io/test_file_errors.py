@@ -21,7 +21,8 @@ kNowhere = ['/nowhere/run', '/proc/run', '{folder}/file/run']
 
 def table():
     return yadefrag.TradeoffTable([
-        TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', k, k, 1 / k, 0, 9, [k], [k]) for k in (1, 2, 3)])
+        TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', 0, 9, k, cpu=k, error=1 / k, walls=[k], cpus=[k])
+        for k in (1, 2, 3)])
 
 
 def fill(name, count):
@@ -196,7 +197,7 @@ def test_aFileOfOtherColumnsIsNoRecord(text, folder):
     Path(name).write_text(text, encoding='latin-1' if text == '\xff\xfe' else 'utf-8')
     with pytest.raises(ValueError, match='run.csv has no lines of recordFracture'):
         yadefrag.plotFracture(name)
-    with pytest.raises(ValueError, match='does not end with the columns'):
+    with pytest.raises(ValueError, match='is without the columns'):
         yadefrag.TradeoffTable.read(name)
 
 
@@ -207,7 +208,7 @@ def test_damagedRecordsAndTablesAreRefused(folder):
              lambda good: (good.replace('0.0', 'x'), good.splitlines()[0] + '\n'),
              'no lines of recordFracture|damaged one'),
             (lambda: table().csv(name), yadefrag.TradeoffTable.read,
-             lambda good: (good.replace('[1]', '[[1]]'), good.replace('ok,1', 'ok,fast')), 'has a damaged row')):
+             lambda good: (good.replace('[1]', '[[1]]'), good.replace('ok,0,9,1', 'ok,0,9,fast')), 'has a damaged row')):
         write()
         good = Path(name).read_text()
         for bad in (good + '1,2,3\n', *damage(good)):

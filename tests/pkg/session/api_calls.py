@@ -80,8 +80,8 @@ def state(fe):
 
 def exampleFiles(fe, folder):
     yadefrag.recordFracture(fe, folder + '/run.csv')
-    table = yadefrag.TradeoffTable([tradeoff_table.TradeoffRow({'k': 1}, 'ok', 1., 1., .1, .1, 10, [1.], [1.]),
-                                    tradeoff_table.TradeoffRow({'k': 2}, 'ok', 2., 2., .01, .1, 10, [2.], [2.])])
+    table = yadefrag.TradeoffTable([tradeoff_table.TradeoffRow({'k': 1}, 'ok', .1, 10, 1., cpu=1., error=.1, walls=[1.], cpus=[1.]),
+                                    tradeoff_table.TradeoffRow({'k': 2}, 'ok', .1, 10, 2., cpu=2., error=.01, walls=[2.], cpus=[2.])])
     table.csv(folder + '/table.csv')
     for name, text in (('plate', '0 0\n1 0\n1 1\n'), ('plate.csv', '0, 0\n1, 0\n1, 1\n'),
                        ('mesh.inp', '*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')):

@@ -105,7 +105,7 @@ def test_everyFormIsAccepted(name, argument, folder):
 
 
 # Their sentence names another argument, or what is in the value.
-kOtherSentence = [('readOutline', 'layers'), ('animate', 'field'), ('plotFracture', 'picture'), ('tradeoff', 'reference'),
+kOtherSentence = [('readOutline', 'layers'), ('animate', 'field'), ('tradeoff', 'reference'),
                   ('severalFields', 'fields'), ('addMesh', 'mesh'), ('tradeoff', 'vary'), ('plotFragmentSizes', 'components'), ('runSteps', 'every'),
                   ('rotate', 'nodes'), ('reaction', 'nodes')]
 

@@ -25,7 +25,7 @@ def trade(scene, vary, measure=scenes.way, **more):
 
 def rows(*points, **more):
     """Rows of a table from (wall, error)."""
-    return [TradeoffRow(dict(k=k), 'ok', wall, wall / 2, error, error, 10, [wall], [wall / 2], **more)
+    return [TradeoffRow(dict(k=k), 'ok', error, 10, wall, cpu=wall / 2, error=error, walls=[wall], cpus=[wall / 2], **more)
             for k, (wall, error) in enumerate(points)]
 
 
@@ -147,8 +147,8 @@ def test_againstAReferenceThatIsRun(folder):
 def test_againstNumbersAndFiles(folder):
     file = os.path.join(folder, 'right.txt')
     np.savetxt(file, [3., 4.])
-    row = TradeoffRow({}, 'ok', 1., 1., value=[3., 5.])
-    short = TradeoffRow({'a': 1}, 'ok', 1., 1., value=[3.])
+    row = TradeoffRow({}, 'ok', [3., 5.], wall=1., cpu=1.)
+    short = TradeoffRow({'a': 1}, 'ok', [3.], wall=1., cpu=1.)
     tool._setErrors(TradeoffTable([row, short]), tool._reference(file), [{}, {'a': 1}])
     assert row.error == pytest.approx(.2)
     assert short.error is None
@@ -156,7 +156,7 @@ def test_againstNumbersAndFiles(folder):
     tool._setErrors(TradeoffTable([row]), tool._reference([0., 0.]), [{}])
     assert row.error == pytest.approx(np.sqrt((9 + 25) / 2))
     # A reference without a value.
-    good, bad = TradeoffRow({}, 'ok', 1., 1., value=1.), TradeoffRow({'a': 1}, 'refused')
+    good, bad = TradeoffRow({}, 'ok', 1., wall=1., cpu=1.), TradeoffRow({'a': 1}, 'refused')
     tool._setErrors(TradeoffTable([good, bad]), {'a': 1}, [{}, {'a': 1}])
     assert good.error is None and good.message == 'the reference (a=1) has no value.'
 
@@ -175,7 +175,7 @@ def test_frontByBruteForce(seed):
     front = table.front()
     assert sorted(row.settings['k'] for row in front) == [row.settings['k'] for row in expected]
     assert [row.wall for row in front] == sorted(row.wall for row in front)
-    table.reference = front[0]
+    table.references = [front[0]]
     assert front[0] not in table.front()
 
 
@@ -183,11 +183,13 @@ def test_csvComesBack(folder):
     file = os.path.join(folder, 'a.csv')
     table = TradeoffTable(rows((1.5, .1), (2., 1 / 3)) + [
         TradeoffRow({'k': True, 'name': 'a, "b"\n|1', 'text': '1'}, 'refused', message='"no", so.'),
-        TradeoffRow({'k': '', 'name': 'NaN', 'text': 'true'}, 'ok', 1e-300, 2., 3., [1., 2.], 7, [1.], [2.])])
+        TradeoffRow({'k': '', 'name': 'NaN', 'text': 'true'}, 'ok', [1., 2.], 7, 1e-300, cpu=2., error=3., walls=[1.],
+                    cpus=[2.])])
     table.csv(file)
     assert TradeoffTable.read(file).rows == table.rows
+    assert TradeoffTable.read(kExamples / 'bars.csv').front()  # an older file, without seconds and warnings
     Path(file).write_text('a,b\n1,2\n')
-    with pytest.raises(ValueError, match='does not end with the columns result, wall'):
+    with pytest.raises(ValueError, match='is without the columns result, value'):
         TradeoffTable.read(file)
 
 
@@ -207,8 +209,8 @@ def test_markdown(folder):
 def test_problemsHaveTheirOwnReferenceAndFront():
     """Two rates, two sizes, two seeds: the finest of each rate and seed is the reference for the other one."""
     settings = [dict(rate=rate, size=size, seed=seed) for rate in (1, 2) for size in (.2, .1) for seed in (0, 1)]
-    found = [TradeoffRow(dict(of), 'ok', .1 / of['size'], 1., None, 100. * of['rate'] + 10 * of['size'] + of['seed'],
-                         10, [1.], [1.]) for of in settings]
+    found = [TradeoffRow(dict(of), 'ok', 100. * of['rate'] + 10 * of['size'] + of['seed'], 10, .1 / of['size'], cpu=1.,
+                         walls=[1.], cpus=[1.]) for of in settings]
     table = TradeoffTable(found, by='rate')
     tool._setErrors(table, 'finest', settings)
     assert all(row.error == 0 for row in table.references) and len(table.references) == 4

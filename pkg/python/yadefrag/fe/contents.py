@@ -77,11 +77,8 @@ def heldCracks(fe: FESolver) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarra
 def shownMesh(fe: FESolver) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
     """(nodes (n), triangles (k), corners (k, 3)): numbers of the existing nodes and triangles, and the
     triangles' corners as indices of these nodes. Must be called between two steps."""
-    corners = numpy.asarray(fe.triangles)
     triangles = shownTriangles(fe)
-    if len(triangles) == len(corners):
-        return numpy.arange(len(fe.nodes)), triangles, corners
-    nodes, places = numpy.unique(corners[triangles], return_inverse=True)
+    nodes, places = numpy.unique(fe.triangles[triangles], return_inverse=True)
     return nodes, triangles, places.reshape(-1, 3)
 
 

@@ -170,15 +170,13 @@ def crackTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
 class Energies(dict):
     """Energies (J) by name; 'external' is an alias: the negative of 'outside'."""
 
-    _ALIAS = 'external'
-
     def __missing__(self, name: str) -> float:
-        if name != self._ALIAS:
+        if name != 'external':
             raise KeyError(name)
         return 0. - self['outside']
 
     def __contains__(self, name: object) -> bool:
-        return name == self._ALIAS or dict.__contains__(self, name)
+        return name == 'external' or dict.__contains__(self, name)
 
     def get(self, name: str, default: Any = None) -> Any:
         return self[name] if name in self else default
@@ -201,13 +199,6 @@ def energy(self: FESolver) -> Energies:
     return Energies(self._energies)
 
 
-def _onlyBody(fe):
-    there = numpy.unique(fe.components).tolist()
-    if len(there) != 1:
-        raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
-    return there[0]
-
-
 def meshQuality(self: FESolver, component: int | str | None = None) -> dict[str, Any]:
     """The shape of the triangles in the stress-free mesh of a body.
 
@@ -222,4 +213,7 @@ def meshQuality(self: FESolver, component: int | str | None = None) -> dict[str,
     """
     requireSolver(self)
     with betweenSteps(self):
-        return dict(self._meshQuality(_onlyBody(self) if component is None else existingBody(self, component)))
+        there = numpy.unique(self.components).tolist() if component is None else [existingBody(self, component)]
+        if len(there) != 1:
+            raise ValueError('component is None, but there are %d bodies; it must be one of %s.' % (len(there), there))
+        return dict(self._meshQuality(there[0]))

@@ -26,7 +26,7 @@ from yadefrag.fe.mesh_values import (Materials, brittlePlaces, field, heldNodes,
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.neighbours import Overlap, addSnapped, bond, bondAll, snapTolerance, tellCostly, tellJoined
 from yadefrag.messages import forget, checkedCall, noteFixed, warn, warnOfOne
-from yadefrag.scene.scene_check import addSolver
+from yadefrag.scene import scene_check
 
 _ELEMENTS = ('linear', 'smoothed')
 
@@ -145,7 +145,7 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None, velocit
     component = added.component
     if component < 0:
         raise Overlap(added.message, added.depth)
-    addSolver(fe)
+    scene_check.solvers.add(fe)
     if fixed is not None:
         noteFixed(fixed, component, bool(held.any()))
     if not fe.axisymmetric:
@@ -314,7 +314,6 @@ def _guard():
     def alone(method):
         return functools.wraps(method)(lambda self: method(self))
 
-    guardedFragments.__qualname__ = 'FESolver.fragments'
     for method in (removeBody, guardedFragments, alone(solver.deepestOverlap), alone(solver.criticalTimeStep)):
         setattr(solver, method.__name__, checkedCall(method))
     solver.__reduce_ex__ = _guardCopy(solver.__reduce_ex__)

@@ -6,7 +6,7 @@ import numpy
 
 from yadefrag.arguments import File, path, positive, shownPath
 from yadefrag.fe.mesh import MeshFile, cross
-from yadefrag.io.readers import abaqus, cornersOf, counted, gmsh, orderOf, refuseFile
+from yadefrag.io.readers import abaqus, cornersOf, counted, gmsh, orderOf, readable
 from yadefrag.messages import warn
 
 _READERS = {'.msh': gmsh.read, '.inp': abaqus.read}
@@ -35,10 +35,8 @@ def readMesh(file: File, scale: float = 1) -> MeshFile:
     with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
     read = _READERS.get(os.path.splitext(name)[1].lower(), gmsh.readByMeshio)
-    try:
+    with readable(name, 'mesh'):
         elements = read(name)
-    except (ValueError, IndexError, KeyError, OSError, OverflowError, MemoryError) as error:
-        refuseFile(name, 'mesh', error)
     used = _usedPoints(elements, name)
     points = scale * _plane(numpy.asarray(elements.points, dtype=float), used, name)
     triangles, source, told = _trianglesOf(elements, points, name)

@@ -135,9 +135,9 @@ def _names(layers):
 def _layers(file, tolerance, wanted):
     """{layer: Found} of a .dxf, or of the wanted layers; names are case-insensitive, as in the format.
     """
+    parts = dxf.readLayers(file, tolerance, frozenset(one.casefold() for one in wanted or ()))
     if wanted is None:
-        return dxf.readLayers(file, tolerance, frozenset())
-    parts = dxf.readLayers(file, tolerance, frozenset(one.casefold() for one in wanted))
+        return parts
     known = {layer.casefold(): layer for layer, part in parts.items() if part.lines}
     for one in wanted:
         if one.casefold() not in known:

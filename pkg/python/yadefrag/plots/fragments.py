@@ -180,5 +180,5 @@ def plotFracture(file: File, picture: File | None = None) -> tuple[Axes, Axes]:
     for ax in (upper, lower):
         ax.legend(loc='center left', bbox_to_anchor=(1, .5))
         ax.grid(True, linewidth=.3)
-    savePicture(figure, picture, dpi=150)
+    savePicture(figure, picture, 150, 'picture')
     return upper, lower

@@ -173,17 +173,12 @@ def _place(body, number):
 
 
 def _codes(places):
-    """Position codes of positions (n, 3), in cubes of 2^-21 of the longest side of all."""
+    """Position codes of positions (n, 3), in cubes of 2^-21 of the longest side of all: the bits of z, y and x in turn."""
     low = places.min(axis=0)
     longest = (places.max(axis=0) - low).max()
     cells = (places - low) * ((2**_BITS - 1) / longest) if longest > 0 else 0 * places
-    x, y, z = (_spread(cells[:, k].astype(numpy.uint64)) for k in range(3))
-    return x | y << numpy.uint64(1) | z << numpy.uint64(2)
-
-
-def _spread(number):
-    """The bits of `number` with two empty ones after each."""
-    for shift, mask in ((32, 0x1f00000000ffff), (16, 0x1f0000ff0000ff), (8, 0x100f00f00f00f00f),
-                        (4, 0x10c30c30c30c30c3), (2, 0x1249249249249249)):
-        number = (number | number << numpy.uint64(shift)) & numpy.uint64(mask)
-    return number
+    cells, codes = cells.astype(numpy.uint64), numpy.zeros(len(places), numpy.uint64)
+    for bit in range(_BITS):
+        for axis in range(3):
+            codes |= (cells[:, axis] >> numpy.uint64(bit) & numpy.uint64(1)) << numpy.uint64(3 * bit + axis)
+    return codes

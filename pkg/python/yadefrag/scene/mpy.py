@@ -174,20 +174,15 @@ def _clumpsWithMaterial(mpy):
 def _mergeScene(mpy, yades):
     if mpy.rank == 0 and mpy.waitingCommands:
         mpy.sendCommand('slaves', 'mergeScene()', False)
-    if _omega().splitted:
-        _takeInserted(mpy)
-        with _clumpsWithMaterial(mpy), _withoutCommands(mpy):
+    if not _omega().splitted:
+        return
+    _takeInserted(mpy)
+    waiting, mpy.waitingCommands = mpy.waitingCommands, False  # the master has sent its command already
+    try:
+        with _clumpsWithMaterial(mpy):
             if _isPeriodic():
                 _checkCell(mpy)
             yades()
-
-
-@contextlib.contextmanager
-def _withoutCommands(mpy):
-    """The master has sent its command already."""
-    waiting, mpy.waitingCommands = mpy.waitingCommands, False
-    try:
-        yield
     finally:
         mpy.waitingCommands = waiting
 
@@ -279,13 +274,9 @@ def reasonNotToSplit() -> str | None:
             any(body is not None and isinstance(body.shape, wrapper.SurfaceSegment) for body in omega.bodies):
         return ('FESolver and its bodies work in one process only: yade.mpy cannot split this '
                 'scene; run it with O.run.')
-    return _reasonOf(ourCollider(), omega)
-
-
-def _reasonOf(collider, omega):
-    """YADE's own collider fails in these scenes, too: that is left to it."""
+    collider = ourCollider()
     if collider is None:
-        return None
+        return None  # YADE's own collider fails in the scenes below, too: that is left to it
     name = type(collider).__name__
     if collider.label != 'collider':
         return ("yade.mpy finds its collider by the label 'collider', but this one has %s: write "

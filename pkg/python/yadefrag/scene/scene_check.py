@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from yade import wrapper
-from yadefrag.arguments import FESolver
 from yadefrag.messages import tellNumbers, warn
 
 # These engines apply no forces to bodies, or apply them anew in each step.
@@ -121,30 +120,16 @@ def _outOfPlane(beside, leaving, loose, gravityZ):
     return []
 
 
-def addSolver(solver: FESolver) -> None:
-    """Must be called for every solver to which a body is added."""
-    solvers.add(solver)
-
-
-def _isWithoutSolver():
-    """True, once for each scene and number of bodies, if there are FE bodies and no engine moves them."""
-    global _looked
-    if not solvers:
-        return False
-    omega = wrapper.Omega()
-    if any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine)) for one in omega.engines):
-        return False
-    present = omega.tags['id'], len(omega.bodies)
-    if present == _looked:
-        return False
-    _looked = present
-    return any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0 for body in omega.bodies)
-
-
 def tellUnmoved() -> None:
-    """Before a run: a warning about FE bodies whose FESolver is no engine, and has no step of its own in which
-    it could warn. It is also in the `warnings` of all solvers with bodies."""
-    if not _isWithoutSolver():
+    """Before a run: a warning, once for each scene and number of bodies, about FE bodies whose FESolver is no engine, and
+    has no step of its own in which it could warn. It is also in the `warnings` of all solvers with bodies."""
+    global _looked
+    omega = wrapper.Omega()
+    if not solvers or any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine)) for one in omega.engines):
+        return
+    former, _looked = _looked, (omega.tags['id'], len(omega.bodies))
+    if _looked == former or not any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0
+                                    for body in omega.bodies):
         return
     for solver in solvers:
         solver._note(_UNMOVED)

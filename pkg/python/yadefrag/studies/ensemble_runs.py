@@ -6,9 +6,10 @@ from typing import Any
 
 from yadefrag.arguments import File, isWhole, listOf, plain, refuse, shown, text, whole
 from yadefrag.messages import passOn
-from yadefrag.studies.ensemble_table import EnsembleRow, EnsembleTable
+from yadefrag.studies.ensemble_table import EnsembleTable
 from yadefrag.studies.runs import Finished, counted, jobOf, runAll
 from yadefrag.studies.scene_choices import Choices
+from yadefrag.studies.table import EnsembleRow
 from yadefrag.studies.tradeoff_grid import checkChoice, requireFiles, writeTable
 
 _MOST_RUNS = 10**6

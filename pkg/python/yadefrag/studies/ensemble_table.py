@@ -14,42 +14,12 @@ from yadefrag.arguments import ArrayLike, File, array, number, real, refuse, tex
 from yadefrag.files import savePicture
 from yadefrag.messages import needed
 from yadefrag.plots.axes import DISTINCT, axesOf
-from yadefrag.studies.tradeoff_table import Table, describe, grouped, samples, varying
+from yadefrag.studies.table import EnsembleRow, Table, describe, grouped, samples, varying
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _PLACES = 200  # points of a curve
-
-
-@dataclasses.dataclass
-class EnsembleRow:
-    """One run and its result.
-
-    settings  dict of the scene's choices
-    result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not
-              run'
-    value     the measured value, a number or a list, or a dict of these by quantity; None without
-    steps     number of steps
-    wall      wall-clock time of the steps over simulated time (s/s), large for short scenes
-    seconds   wall-clock time of the steps (s)
-    warnings  messages of the run: those of fe.warnings, and Python's of the script
-    """
-
-    settings: dict
-    result: str = 'not run'
-    value: Any = None
-    steps: int | None = None
-    wall: float | None = None
-    message: str = ''
-    seconds: float | None = None
-    warnings: list = dataclasses.field(default_factory=list)
-
-    def take(self, found: dict[str, Any]) -> None:
-        """Stores the result of a run."""
-        self.result, self.message = found['result'], found['message']
-        self.value, self.steps, self.wall, self.seconds = map(found.get, ('value', 'steps', 'wall', 'seconds'))
-        self.warnings = list(found.get('warnings', ()))
 
 
 class EnsembleTable(Table):
@@ -265,12 +235,10 @@ def _share(confidence):
 
 def _meanOf(table, confidence):
     """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few runs."""
-    count = len(table)
-    if count == 0:
-        return (numpy.full(1, numpy.nan),) * 3
-    mean = table.mean(axis=0)
-    if count == 1:
-        return mean, numpy.full_like(mean, numpy.nan), numpy.full_like(mean, numpy.nan)
+    count, unknown = len(table), numpy.full(table.shape[1], numpy.nan)
+    mean = table.mean(axis=0) if count else unknown
+    if count < 2:
+        return mean, unknown, unknown
     deviation = table.std(axis=0, ddof=1)
     statistics = needed('scipy.stats', 'python3-scipy', 'confidence bands work')
     most = statistics.t.ppf((1 + confidence) / 2, count - 1)  # values are from -most to most with that probability

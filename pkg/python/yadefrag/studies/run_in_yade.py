@@ -81,7 +81,9 @@ def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every
     moment = begin + every if watch else end  # next call of watch
     while omega.time < end:
         start = time.perf_counter(), time.process_time()
-        advance(omega, min(moment, end))
+        omega.step()  # not O.run, which waits in units of 40 ms
+        while omega.time < min(moment, end) and time.perf_counter() < start[0] + CHECK_EVERY:
+            omega.step()
         wall, cpu = wall + time.perf_counter() - start[0], cpu + time.process_time() - start[1]
         if wall - checked > CHECK_EVERY:
             requireSane(omega)
@@ -92,17 +94,6 @@ def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every
     requireSane(omega)
     simulated = omega.time - begin
     return dict(wall=wall / simulated, cpu=cpu / simulated, seconds=wall, steps=omega.iter - first), seen
-
-
-def advance(omega: Omega, until: float) -> None:
-    """Runs until `until` (s), at least one step and for no longer than CHECK_EVERY.
-
-    With O.step, since O.run waits in units of 40 ms.
-    """
-    limit = time.perf_counter() + CHECK_EVERY
-    omega.step()
-    while omega.time < until and time.perf_counter() < limit:
-        omega.step()
 
 
 def measured(measure: Callable, watch: Callable | None, built: Any, seen: list, isSeveral: bool) -> Any:

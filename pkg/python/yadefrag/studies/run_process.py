@@ -23,33 +23,29 @@ def perform(job: dict[str, Any]) -> dict[str, Any]:
          of a variable), `limit` (s)
     """
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
-        return _performIn(folder, job)
-
-
-def _performIn(folder, job):
-    jobFile, resultFile, log = (os.path.join(folder, n) for n in ('job', 'result', 'log'))
-    with open(jobFile, 'w', encoding='utf-8') as f:
-        json.dump(job, f)
-    threads = job['settings'].get('threads', 1)
-    command = [job['yade'], '-n', '-x', '-j%d' % threads, job['program'], jobFile, resultFile]
-    with open(log, 'w', encoding='utf-8') as output:
-        process = subprocess.Popen(command, env=_environment(job), stdin=subprocess.DEVNULL,
-                                   stdout=output, stderr=output, start_new_session=True)
-        _live.add(process)
-        try:
-            process.wait(timeout=job['limit'])
-        except subprocess.TimeoutExpired:
-            return dict(result='too long', message='no result within %g s.' % job['limit'])
-        finally:
-            _end(process)
-            _live.discard(process)
-    if not os.path.exists(resultFile):
-        with open(log, encoding='utf-8', errors='replace') as f:
-            last = [line.strip() for line in f if line.strip()][-1:]
-        return dict(result='failed', message='yade ended with status %d: %s' %
-                    (process.returncode, ''.join(last)[:200]))
-    with open(resultFile, encoding='utf-8') as f:
-        return json.load(f)
+        jobFile, resultFile, log = (os.path.join(folder, n) for n in ('job', 'result', 'log'))
+        with open(jobFile, 'w', encoding='utf-8') as f:
+            json.dump(job, f)
+        threads = job['settings'].get('threads', 1)
+        command = [job['yade'], '-n', '-x', '-j%d' % threads, job['program'], jobFile, resultFile]
+        with open(log, 'w', encoding='utf-8') as output:
+            process = subprocess.Popen(command, env=_environment(job), stdin=subprocess.DEVNULL,
+                                       stdout=output, stderr=output, start_new_session=True)
+            _live.add(process)
+            try:
+                process.wait(timeout=job['limit'])
+            except subprocess.TimeoutExpired:
+                return dict(result='too long', message='no result within %g s.' % job['limit'])
+            finally:
+                _end(process)
+                _live.discard(process)
+        if not os.path.exists(resultFile):
+            with open(log, encoding='utf-8', errors='replace') as f:
+                last = [line.strip() for line in f if line.strip()][-1:]
+            return dict(result='failed', message='yade ended with status %d: %s' %
+                        (process.returncode, ''.join(last)[:200]))
+        with open(resultFile, encoding='utf-8') as f:
+            return json.load(f)
 
 
 def endAll() -> None:

@@ -15,7 +15,7 @@ from typing import Any
 from yadefrag.arguments import File, number, path, positive, refuse, shown, shownPath
 from yadefrag.files import appendText, requireWritable, writeText
 from yadefrag.studies import run_process
-from yadefrag.studies.tradeoff_table import describe
+from yadefrag.studies.table import describe
 
 INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
 _HERE = os.path.dirname(os.path.realpath(run_process.__file__))
@@ -117,18 +117,15 @@ def _take(futures, take):
     places = {future: place for place, future in enumerate(futures)}
     try:
         for future in concurrent.futures.as_completed(places):
-            take(places[future], _resultOf(future))
+            try:
+                found = future.result()
+            except Exception as error:  # of the executor, or of a lost worker
+                found = dict(result='failed', isLost=True, message='%s: %s' % (
+                    type(error).__name__, ' '.join(str(error).split())[:200]))
+            take(places[future], found)
     finally:
         for future in futures:
             future.cancel()
-
-
-def _resultOf(future):
-    try:
-        return future.result()
-    except Exception as error:  # of the executor, or of a lost worker
-        return dict(result='failed', isLost=True, message='%s: %s' % (
-            type(error).__name__, ' '.join(str(error).split())[:200]))
 
 
 class Finished:

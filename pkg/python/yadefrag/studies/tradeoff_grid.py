@@ -20,8 +20,8 @@ from yadefrag.files import requireWritable
 from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
 from yadefrag.studies.runs import Finished, counted, jobOf, keyOf, runAll
-from yadefrag.studies.tradeoff_table import (SEED, Table, TradeoffRow, TradeoffTable, columnsOf, describe,
-                                              namesOfCases)
+from yadefrag.studies.table import SEED, Table, columnsOf, describe
+from yadefrag.studies.tradeoff_table import TradeoffRow, TradeoffTable, namesOfCases
 
 _REPEATABLE = ('not run', 'ok')
 

@@ -1,116 +1,61 @@
-"""The table that tradeoff() returns: rows, Pareto front, Markdown, plot; what it has in common with that of ensemble():
-CSV, files, rows by what varies between them."""
+"""The table that tradeoff() returns: rows, Pareto front, Markdown, plot."""
 
 from __future__ import annotations
 
 import csv
 import dataclasses
-import io
-import json
 import statistics
+import textwrap
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from yadefrag.arguments import File, listOf, path, real, refuse, shownPath, text
-from yadefrag.files import writeText
-from yadefrag.studies import tradeoff_plot
+from yadefrag.arguments import File, path, real, refuse, shownPath
+from yadefrag.files import savePicture, writeText
+from yadefrag.plots.axes import axesOf
+from yadefrag.studies.table import SEED, EnsembleRow, Table, columnsOf, decode, describe, encode, grouped, namesOf
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)', 'cpu': 'processor time over simulated time (s/s)'}
-Row = TypeVar('Row', bound=Any)
-SEED = 'seed'  # runs that differ in it only are repetitions
+_LATER = 'seconds', 'warnings'  # columns that older files do not have
+_FRONT, _OTHER = '#d1495b', '#3d8fb5'
+# Possible positions of a point's text: offset in points, alignment.
+_SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center', 'top'), (-6, 0, 'right', 'center'),
+          (5, 5, 'left', 'bottom'), (-5, 5, 'right', 'bottom'), (5, -5, 'left', 'top'), (-5, -5, 'right', 'top'),
+          (0, 16, 'center', 'bottom'), (0, -16, 'center', 'top')]
 
 
 @dataclasses.dataclass
-class TradeoffRow:
-    """One setting and its result.
+class TradeoffRow(EnsembleRow):
+    """One setting and the result of its runs, as in an EnsembleRow; times are medians.
 
-    settings    dict of choices: those varied, and the scene's own ones that it used
-    result      'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or
-                'not run'
-    wall, cpu   wall-clock and processor time over simulated time (s/s), medians; None without any
+    settings    those varied, and the scene's own ones that it used
+    cpu         processor time over simulated time (s/s)
     error       relative to the reference (absolute if that is 0); None without any
-    value       the measured value, a number or a list
-    steps       of one run
     walls, cpus of the single runs (s/s), in their order
-    seconds     wall-clock time of the steps of a run (s), median
-    warnings    messages of its runs: those of fe.warnings, and Python's of the script
     """
 
-    settings: dict
-    result: str = 'not run'
-    wall: float | None = None
     cpu: float | None = None
     error: float | None = None
-    value: Any = None
-    steps: int | None = None
     walls: list = dataclasses.field(default_factory=list)
     cpus: list = dataclasses.field(default_factory=list)
-    message: str = ''
-    seconds: float | None = None
-    warnings: list = dataclasses.field(default_factory=list)
 
     def take(self, found: dict[str, Any]) -> None:
         """Stores the result of one run."""
-        self.result, self.message = found['result'], found['message']
-        self.warnings += [one for one in found.get('warnings', ()) if one not in self.warnings]
+        said = self.warnings
+        super().take(found)
+        self.warnings = list(dict.fromkeys([*said, *self.warnings]))
         for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
             if value is not None:
                 self.settings.setdefault(name, value)
         if self.result != 'ok':
-            self.walls, self.cpus, self.wall, self.cpu, self.value, self.seconds = [], [], None, None, None, None
+            self.walls, self.cpus, self.cpu = [], [], None
             return
         self.walls.append(found['wall'])
         self.cpus.append(found['cpu'])
         self.wall, self.cpu = statistics.median(self.walls), statistics.median(self.cpus)
-        self.steps, self.value = found['steps'], found['value']
         self.seconds = found['seconds'] * self.wall / found['wall']
-
-
-def describe(settings: dict[str, Any]) -> str:
-    """'passes=2, size=0.001'; 'as the scene is' for no choices."""
-    return ', '.join('%s=%s' % (n, '%.6g' % v if isinstance(v, float) else v)
-                     for n, v in settings.items()) or 'as the scene is'
-
-
-class Table:
-    """rows (list of _ROW) and title, of tradeoff() or ensemble()."""
-
-    _ROW: type[Any]
-    _ENDINGS: tuple[str, ...]  # of the files that `write` writes
-
-    def __init__(self, rows: Iterable[Any], title: str = '') -> None:
-        self.rows = listOf('rows', rows, 'a list of %s' % self._ROW.__name__)
-        for i, row in enumerate(self.rows):
-            self._requireRow(row, 'rows[%d]' % i)
-        self.title = text('title', title)
-
-    def _requireRow(self, row, name='row'):
-        if not isinstance(row, self._ROW):
-            refuse(name, row, 'of the class %s' % self._ROW.__name__)
-
-    def csv(self, file: File) -> None:
-        """Writes all rows: the settings, then what is known of each run; values as JSON, an empty cell for None."""
-        names, columns = dict.fromkeys(name for row in self.rows for name in row.settings), columnsOf(self._ROW)
-        out = io.StringIO(newline='')
-        writer = csv.writer(out)
-        writer.writerow([*names, *columns])
-        for row in self.rows:
-            cells = [*map(row.settings.get, names), *(getattr(row, column) for column in columns)]
-            writer.writerow(map(_encode, cells))
-        writeText(path('file', file), out.getvalue())
-
-    @classmethod
-    def namesOfFiles(cls, files: File) -> list[str]:
-        """Names of the files that `write` writes."""
-        return [path('files', files) + ending for ending in cls._ENDINGS]
-
-
-def columnsOf(kind: type[Any]) -> tuple[str, ...]:
-    """Names of what a row of this class has beside its settings."""
-    return tuple(one.name for one in dataclasses.fields(kind)[1:])
 
 
 class TradeoffTable(Table):
@@ -129,10 +74,6 @@ class TradeoffTable(Table):
     @property
     def reference(self) -> TradeoffRow | None:
         return self.references[0] if self.references else None
-
-    @reference.setter
-    def reference(self, row: TradeoffRow | None) -> None:
-        self.references = [] if row is None else [row]
 
     def cases(self) -> list[tuple[dict[str, Any], list[TradeoffRow]]]:
         """[(dict of settings, rows)]: the rows of one problem each, by `by` and the seed."""
@@ -160,7 +101,7 @@ class TradeoffTable(Table):
 
     def names(self) -> list[str]:
         """Names of all choices, in the order in which they first occur."""
-        return list(dict.fromkeys(name for row in self.rows for name in row.settings))
+        return namesOf(self.rows)
 
     def label(self, row: TradeoffRow) -> str:
         """Difference of a row from the first: 'passes=2'; 'row 1' for that one."""
@@ -168,7 +109,7 @@ class TradeoffTable(Table):
         if not self.rows:
             raise ValueError('the table has no rows.')
         first = self.rows[0].settings
-        other = {name: value for name, value in row.settings.items() if _encode(value) != _encode(first.get(name))}
+        other = {name: value for name, value in row.settings.items() if encode(value) != encode(first.get(name))}
         return describe(other) if other else 'row 1'
 
     def front(self, time: str = 'wall') -> list[TradeoffRow]:
@@ -214,9 +155,9 @@ class TradeoffTable(Table):
             except csv.Error as error:
                 raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
-        columns = columnsOf(TradeoffRow)
-        if tuple(head[-len(columns):]) != columns:
-            raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(columns)))
+        missing = [column for column in columnsOf(TradeoffRow) if column not in (*head, *_LATER)]
+        if missing:
+            raise ValueError('%s is without the columns %s.' % (shownPath(name), ', '.join(missing)))
         rows = [_row(head, line) for line in lines[1:]]
         if None in rows:
             raise ValueError('%s has a damaged row, the one after %d others.' % (shownPath(name), rows.index(None)))
@@ -276,7 +217,40 @@ class TradeoffTable(Table):
         side, all points with enough room have names. `file` is the path of a picture; its ending
         determines the format. ValueError if no row has an error to show.
         """
-        return tradeoff_plot.plot(self, file, ax, time, _TIMES.get(str(time)), names)
+        front = self.front(time)
+        shown: list[Any] = [row for row in self.rows if row.error is not None and not self.isReference(row)]
+        if not shown:
+            raise ValueError('no row of the table has an error to show.')
+        isNew, ax = ax is None, axesOf(ax)
+        if isNew:
+            ax.figure.set_size_inches(11, max(4.8, .235 * max(len(self.rows), 12) + 1.2))
+        # An error of 0 cannot be shown on a logarithmic axis: it is drawn at a tenth of the smallest
+        # other one.
+        floor = min((row.error for row in shown if row.error > 0), default=1e-16) / 10
+        at = {id(row): (getattr(row, time), max(row.error, floor)) for row in shown}
+        for _, rows in self.cases():
+            line = [at[id(row)] for row in front if any(row is one for one in rows)]
+            if line:
+                ax.step(*zip(*line), where='post', color=_FRONT, lw=1.2, alpha=.6, zorder=1)
+        for row in shown:
+            colour = _FRONT if row in front else _OTHER
+            ax.plot(*at[id(row)], 'o', color=colour, ms=6, zorder=2)
+        ax.set(xscale='log', yscale='log', xlabel=_TIMES[time], ylabel='error')
+        ax.margins(.08)
+        for axis in (ax.xaxis, ax.yaxis):
+            _plainTicks(axis)
+        ax.grid(color='.9', lw=.6, zorder=0)
+        ax.spines[['top', 'right']].set_visible(False)
+        ax.set_title(self.title, loc='left', fontsize=11)
+        # The most important texts are placed first.
+        shown.sort(key=lambda row: (row not in front, row is not self.rows[0]))
+        if names:
+            _legend(ax, self, front)
+            _marks(ax, [(at[id(row)], str(self.rows.index(row) + 1), row in front) for row in shown], isNeeded=True)
+        else:
+            _marks(ax, [(at[id(row)], self.label(row), row in front) for row in shown], isNeeded=False)
+        savePicture(ax.figure, file, dpi=110)
+        return ax
 
     def write(self, files: File, time: str = 'wall') -> None:
         """files.csv, files.md and, if there is something to show, files.png."""
@@ -304,9 +278,9 @@ def _row(head, line):
     """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
     if len(line) != len(head):
         return None
-    cells, count = [_decode(cell) for cell in line], len(columnsOf(TradeoffRow))
-    settings = {n: v for n, v in zip(head, cells[:-count]) if v is not None}
-    row = TradeoffRow(settings, *cells[-count:])
+    cells = dict(zip(head, map(decode, line)))
+    known = {name: cells.pop(name) for name in columnsOf(TradeoffRow) if name in cells}
+    row = TradeoffRow({name: value for name, value in cells.items() if value is not None}, **known)
     row.message, row.warnings = row.message or '', row.warnings or []
     isRight = (isinstance(row.result, str) and isinstance(row.message, str)
                and all(real(value) is not None or value is None and row.result != 'ok'
@@ -318,52 +292,53 @@ def _row(head, line):
     return row if isRight else None
 
 
-def _encode(value):
-    """A cell: JSON, except for texts that cannot be mistaken for JSON."""
-    if value is None:
-        return ''
-    if isinstance(value, str) and value and _decode(value) is value:
-        return value
-    return json.dumps(value)
+def _marks(ax, points, isNeeded):
+    """Texts beside the points (position, text, bold), where they cover nothing.
 
-
-def _decode(cell):
-    if cell == '':
-        return None
-    try:
-        return json.loads(cell)
-    except (ValueError, RecursionError):
-        return cell
-
-
-def varying(rows: Sequence[Any]) -> list[str]:
-    """Names of the settings that vary and are neither a seed nor a sample, in their order.
-
-    A sample is a number that is another one in each of several runs, as drawn from a distribution.
+    A text without such a position is left out; if it `isNeeded`, it is drawn anyway.
     """
-    names = dict.fromkeys(name for row in rows for name in row.settings)
-    return [name for name in names if name != SEED and len(_values(rows, name)) > 1 and not _isSample(rows, name)]
+    from matplotlib.patheffects import withStroke
+    from matplotlib.transforms import Bbox
+    ax.figure.canvas.draw()
+    bounds = ax.get_window_extent()
+    places = [ax.transData.transform(at) for at, _, _ in points]
+    taken = [Bbox([place - 4, place + 4]) for place in places]
+    for at, text, isBold in points:
+        mark = ax.annotate(text, at, (0, 0), textcoords='offset points', fontsize=8,
+                           weight='bold' if isBold else 'normal',
+                           # The line of the front does not strike the text through.
+                           path_effects=[withStroke(linewidth=3, foreground='w')])
+        mark.set_in_layout(False)
+        for dx, dy, ha, va in _SIDES:
+            mark.xyann = (dx, dy)
+            mark.set(ha=ha, va=va)
+            box = mark.get_window_extent()
+            isInside = all(bounds.contains(*corner) for corner in box.corners())
+            if isInside and not any(box.overlaps(other) for other in taken):
+                break
+        else:
+            if not isNeeded:
+                mark.remove()
+                continue
+        taken.append(box)
 
 
-def samples(rows: Sequence[Any]) -> list[str]:
-    """Names of the settings that are another number in each run, without the seed."""
-    return [name for name in dict.fromkeys(n for row in rows for n in row.settings)
-            if name != SEED and _isSample(rows, name)]
+def _plainTicks(axis):
+    from matplotlib.ticker import FuncFormatter, NullFormatter
+    low, high = axis.get_view_interval()
+    axis.set_major_formatter(FuncFormatter(lambda v, _: '%g' % v))
+    few = high / low < 30
+    axis.set_minor_formatter(FuncFormatter(lambda v, _: '%g' % v if ('%e' % v)[0] in '25' else '')
+                             if few else NullFormatter())
 
 
-def grouped(rows: Sequence[Row], names: Iterable[str]) -> list[tuple[dict[str, Any], list[Row]]]:
-    """[(dict of the settings `names`, rows)] in the order of their first rows."""
-    groups = {}
-    for row in rows:
-        of = {name: row.settings[name] for name in names if name in row.settings}
-        groups.setdefault(repr(of), (of, []))[1].append(row)
-    return list(groups.values())
-
-
-def _values(rows, name):
-    return {repr(row.settings.get(name)) for row in rows}
-
-
-def _isSample(rows, name):
-    values = [row.settings.get(name) for row in rows]
-    return None not in map(real, values) and 1 < len(rows) == len(set(values))
+def _legend(ax, table, front):
+    """All rows at the side, with the result of those that are not points."""
+    height = 1 / max(len(table.rows), 12)
+    for i, row in enumerate(table.rows):
+        note = '' if row.result == 'ok' else ': ' + row.result
+        note += ' (reference)' if table.isReference(row) else ''
+        text = textwrap.shorten('%d  %s%s' % (i + 1, table.label(row), note), 62, placeholder=' …')
+        ax.annotate(text, (1.03, 1 - (i + .5) * height), xycoords='axes fraction', fontsize=8.5,
+                    va='center', color=_FRONT if row in front else '.15' if note == '' else '.5',
+                    weight='bold' if row in front else 'normal')

@@ -9,12 +9,12 @@ which returns Elements.
 from __future__ import annotations
 
 import collections
+import contextlib
 import dataclasses
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import ModuleType
-from typing import NoReturn
 
 import numpy
 from numpy.typing import ArrayLike
@@ -35,7 +35,7 @@ class Found:
     lines    arrays (n, 2), the points of an unbroken line, closed if the last equals the first one
     regions  (outline, [holes]) of arrays (n, 2) without the first point repeated at the end
     leftOut  {what, in the plural: number}: what a viewer shows and the reader does not read, and what
-             the file contains and a viewer does not show
+             the file contains and a viewer does not show; numbers of 0 end in `add`
     """
 
     def __init__(self, lines: Iterable = (), regions: Iterable = ()) -> None:
@@ -58,10 +58,17 @@ def needed(module: str, package: str, file: str) -> ModuleType:
     return messages.needed(module, package, shownPath(file) + ' can be read')
 
 
-def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
-    """ValueError: the contents of `file` do not match its ending; `error` is the library's exception."""
-    words = ' '.join(str(error).split()).rstrip('.')[:120]
-    raise ValueError('%s is not a readable %s: %s.' % (shownPath(file), kind, words or type(error).__name__)) from None
+@contextlib.contextmanager
+def readable(file: str, kind: str) -> Iterator[None]:
+    """For `with`: an exception of the library, of Python's parsers, or for missing members of `file` becomes a
+    ValueError: its contents do not match its ending."""
+    try:
+        yield
+    except ImportError:
+        raise
+    except Exception as error:
+        words = ' '.join(str(error).split()).rstrip('.')[:120] or type(error).__name__
+        raise ValueError('%s is not a readable %s: %s.' % (shownPath(file), kind, words)) from None
 
 
 def requireTolerance(tolerance: float | None, file: str, what: str) -> float:
@@ -132,17 +139,3 @@ def ellipticArc(centre: ArrayLike, axes: ArrayLike, start: float, sweep: float, 
     pieces = piecesOf(reach * sweep**2, tolerance, math.ceil(abs(sweep) / (math.pi / 4)))
     angles = start + sweep * numpy.arange(pieces + 1)[:, None] / max(pieces, 1)
     return numpy.asarray(centre, dtype=float) + a * numpy.cos(angles) + b * numpy.sin(angles)
-
-
-def bulge(start: ArrayLike, end: ArrayLike, value: float, tolerance: float) -> numpy.ndarray:
-    """(n, 2) points of the arc of a DXF bulge, tan(angle / 4), from `start` to `end`, without the first."""
-    start, end = numpy.asarray(start, dtype=float), numpy.asarray(end, dtype=float)
-    chord = end - start
-    if value == 0 or not chord.any():
-        return end[None]
-    left = numpy.array([-chord[1], chord[0]])
-    centre = (start + end) / 2 + left * (1 - value**2) / (4 * value)
-    arm = start - centre
-    points = ellipticArc(centre, (arm, (-arm[1], arm[0])), 0, 4 * math.atan(value), tolerance)[1:]
-    points[-1] = end
-    return points

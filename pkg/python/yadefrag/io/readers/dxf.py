@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection
 
 import numpy
 
-from yadefrag.io.readers import Found, bulge, ellipticArc, needed, refuseFile, requireTolerance
+from yadefrag.io.readers import Found, ellipticArc, needed, readable, requireTolerance
 
 _PACKAGE = 'python3-ezdxf'
 _SPLINE_PIECES = 16  # minimum between two knots: ezdxf checks the middle of a piece only
@@ -23,15 +23,13 @@ def readLayers(name: str, tolerance: float | None, chosen: Collection[str]) -> d
     """{layer: Found}, in the order of the file. `chosen` are names, in lower case, of layers that are
     read even if they are off or frozen."""
     ezdxf = needed('ezdxf', _PACKAGE, name)
-    try:
+    with readable(name, 'DXF file'):
         document, damages = _document(ezdxf, name)
         walk = _Walk(document, chosen)
         if damages:
             walk.skipped(_NAMELESS)['damaged parts of the file'] += damages
         entities = list(walk.shown(document.modelspace()))
         walk.skipPaper()
-    except Exception as error:  # of the library
-        refuseFile(name, 'DXF file', error)
     for layer, entity, matrix in entities:
         found = walk.of(layer)
         reader = _READERS.get(entity.dxftype())
@@ -171,13 +169,15 @@ def _polyline(entity, tolerance, name):
         return None  # a surface
     if len(corners) < 2:
         return []
-    points = [corners[0][:3]]
+    points, arcOf = [corners[0][:3]], importlib.import_module('ezdxf.math').bulge_to_arc
     for (x, y, z, bend), after in zip(corners, corners[1:] + corners[:1] * isClosed):
-        if bend:
-            requireTolerance(tolerance, name, 'has curves')
-            points += [(a, b, z) for a, b in bulge((x, y), after[:2], bend, tolerance).tolist()]
-        else:
-            points.append(after[:3])
+        if bend and (x, y) != after[:2]:
+            centre, start, end, radius = arcOf((x, y), after[:2], bend)  # counter-clockwise
+            sweep = 4 * math.atan(bend)
+            arc = ellipticArc(tuple(centre), radius * numpy.eye(2), start if bend > 0 else end, sweep,
+                              requireTolerance(tolerance, name, 'has curves'))
+            points += [(a, b, z) for a, b in arc[1:-1].tolist()]
+        points.append(after[:3])
     # Mirrored entities have a coordinate system of their own.
     return numpy.array([tuple(point) for point in entity.ocs().points_to_wcs(points)])
 

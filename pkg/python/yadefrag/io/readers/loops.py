@@ -6,6 +6,7 @@ A region is (outline, [holes]) of arrays (n, 2). Points inside an odd number of 
 import math
 from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
 import numpy
 
@@ -92,6 +93,12 @@ def area(loop: numpy.ndarray) -> float:
     return float(x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)) / 2
 
 
+def regionOf(polygon: Any) -> Region:
+    """Of shapely's polygon, without heights."""
+    outline, *holes = (numpy.array(ring.coords)[:-1, :2] for ring in (polygon.exterior, *polygon.interiors))
+    return outline, holes
+
+
 def closed(loop: numpy.ndarray) -> numpy.ndarray:
     """The loop as a line that ends where it begins."""
     return numpy.concatenate([loop, loop[:1]])
@@ -108,7 +115,8 @@ def nested(regions: list[Region], file: str) -> list[Region]:
     regions = [(_turned(outline), list(map(_turned, holes))) for outline, holes in regions]
     inside = around(regions)
     if any(len(those) % 2 and regions[i][1] for i, those in enumerate(inside)):
-        return nested([one for i, region in enumerate(regions) for one in _parts(*region, len(inside[i]) % 2)], file)
+        return nested([one for (outline, holes), those in zip(regions, inside) for one in (
+            [(loop, []) for loop in (outline, *holes)] if len(those) % 2 else [(outline, holes)])], file)
     shapes = {i: (regions[i][0], list(regions[i][1])) for i, those in enumerate(inside) if len(those) % 2 == 0}
     for i, those in enumerate(inside):
         if i not in shapes:
@@ -123,11 +131,6 @@ def nested(regions: list[Region], file: str) -> list[Region]:
 
 def _turned(loop):
     return loop if area(loop) >= 0 else loop[::-1]
-
-
-def _parts(outline, holes, isSplit):
-    """The region itself, or its outline and its holes as regions without holes."""
-    return [(loop, []) for loop in (outline, *holes)] if isSplit else [(outline, holes)]
 
 
 def around(regions: list[Region]) -> list[list[int]]:

@@ -8,7 +8,8 @@ from collections.abc import Callable
 import numpy
 
 from yadefrag.arguments import Loop, shown, shownPath
-from yadefrag.io.readers import Found, needed, refuseFile, requireTolerance
+from yadefrag.io.readers import Found, needed, readable, requireTolerance
+from yadefrag.io.readers.loops import regionOf
 
 _SHAPELY = 'python3-shapely'
 _BETWEEN = str.maketrans(',;"', '   ')
@@ -75,12 +76,10 @@ def readGeoJson(name: str, tolerance: float | None) -> Found:
     """One GeoJSON text, or one on each line."""
     geometry = needed('shapely.geometry', _SHAPELY, name)
     found = Found()
-    try:
+    with readable(name, 'GeoJSON file'):
         for data in _texts(_contents(name)):
             for one in _geometries(data, found.leftOut):
                 _add(found, geometry.shape(one))
-    except Exception as error:  # of the library, of JSON and of missing members
-        refuseFile(name, 'GeoJSON file', error)
     return found
 
 
@@ -113,11 +112,9 @@ def readWkt(name: str, tolerance: float | None) -> Found:
     """Geometries one after another, e.g. one on each line."""
     wkt = needed('shapely.wkt', _SHAPELY, name)
     found = Found()
-    try:
+    with readable(name, 'WKT file'):
         for one in _WKT_ENDS.split(_WKT_SYSTEM.sub('', _contents(name)).strip(' \t\r\n;,')):
             _add(found, wkt.loads(one))
-    except Exception as error:  # of the library
-        refuseFile(name, 'WKT file', error)
     return found
 
 
@@ -129,16 +126,11 @@ def _add(found, shape):
     elif shape.is_empty:
         found.leftOut['empty geometries'] += 1
     elif shape.geom_type == 'Polygon':
-        outline, *holes = (_plane(ring)[:-1] for ring in (shape.exterior, *shape.interiors))
-        found.regions.append((outline, holes))
+        found.regions.append(regionOf(shape))
     elif shape.geom_type in ('LineString', 'LinearRing'):
-        found.lines.append(_plane(shape))
+        found.lines.append(numpy.array(shape.coords)[:, :2])
     else:
         found.leftOut['points'] += 1
-
-
-def _plane(line):
-    return numpy.array(line.coords, dtype=float)[:, :2]
 
 
 def readPicture(name: str, tolerance: float | None) -> Found:
@@ -148,25 +140,21 @@ def readPicture(name: str, tolerance: float | None) -> Found:
     image = needed('PIL.Image', 'python3-pil', name)
     operations = needed('PIL.ImageOps', 'python3-pil', name)
     measure = needed('skimage.measure', 'python3-skimage', name)
-    try:
-        with image.open(name) as picture:
-            tags = dict(getattr(picture, 'tag_v2', {}))
-            key = picture.info.get('transparency')
-            others = getattr(picture, 'n_frames', 1) - 1
-            # Pillow 11 and 12 map the values of a TIFF that is stored on its side into memory with the sizes
-            # of the turned picture. They do not if they know no file of this name.
-            picture.filename = ''
-            picture.load()  # turns a TIFF, which exif_transpose would turn once more
-            upright = picture if picture.format == 'TIFF' else operations.exif_transpose(picture)
-            dark = _darkness(image, upright, tags, key)
-    except Exception as error:  # of the library
-        refuseFile(name, 'picture', error)
+    with readable(name, 'picture'), image.open(name) as picture:
+        tags = dict(getattr(picture, 'tag_v2', {}))
+        key = picture.info.get('transparency')
+        others = getattr(picture, 'n_frames', 1) - 1
+        # Pillow 11 and 12 map the values of a TIFF that is stored on its side into memory with the sizes
+        # of the turned picture. They do not if they know no file of this name.
+        picture.filename = ''
+        picture.load()  # turns a TIFF, which exif_transpose would turn once more
+        upright = picture if picture.format == 'TIFF' else operations.exif_transpose(picture)
+        dark = _darkness(image, upright, tags, key)
     height = len(dark)
     contours = measure.find_contours(numpy.pad(dark, 1), _LEVEL)
     # The middle of pixel (row 0, column 0) is at (1, 1) in the padded array.
     found = Found([numpy.stack([c[:, 1] - .5, height + .5 - c[:, 0]], axis=1) for c in contours])
-    if others:
-        found.leftOut['further pictures of the file'] += others
+    found.leftOut['further pictures of the file'] += others
     return found
 
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import numpy
 
-from yadefrag.io.readers import Found, needed, refuseFile
+from yadefrag.io.readers import Found, needed, readable
 from yadefrag.io.readers.svg_shapes import Item, appended
 from yadefrag.io.readers.svg_style import (INITIAL, Sheets, fraction, hrefOf, isPattern, isSeen, isWhite, tagOf, urlOf)
 
@@ -28,18 +28,14 @@ _UNITS = {None, '', '%', 'px', 'pt', 'pc', 'mm', 'cm', 'in', 'em', 'Q'}
 def read(name: str, tolerance: float | None) -> Found:
     svg, _ = (needed(one, 'python3-' + one, name) for one in ('svgelements', 'cssselect2'))
     found = Found()
-    try:
+    with readable(name, 'SVG file'):
         root = ElementTree.parse(name).getroot()
         if tagOf(root) != 'svg':
             raise ValueError('its root element is not svg')
         with open(name, 'rb') as file:
-            sheets = file.read().count(b'<?xml-stylesheet')
-        if sheets:
-            found.leftOut['external style sheets'] += sheets
+            found.leftOut['external style sheets'] += file.read().count(b'<?xml-stylesheet')
         walk = _Walk(svg, root, found.leftOut)
         items = walk.items()
-    except Exception as error:  # of the library, and of Python's parser of XML
-        refuseFile(name, 'SVG file', error)
     appended(found, items, walk.page, tolerance, name)
     return found
 
@@ -95,8 +91,7 @@ class _Walk:
         if fraction(style['opacity']) <= 0 and not place.isClip:
             return self._hide(element, 'shapes with opacity 0')
         for key in ('mask', 'filter'):
-            if urlOf(style[key]) in self.ids:
-                self.leftOut[key + 's'] += 1
+            self.leftOut[key + 's'] += urlOf(style[key]) in self.ids
         matrix = place.matrix @ self._transform(style, place.view)
         place = dataclasses.replace(place, style=style, matrix=matrix)
         if tag in _SHAPES:
@@ -125,9 +120,7 @@ class _Walk:
                 self._visit(child, place)
 
     def _hide(self, element, what):
-        count = sum(tagOf(one) in _SHAPES | {'use'} or tagOf(one) in _OTHERS for one in element.iter())
-        if count:
-            self.leftOut[what] += count
+        self.leftOut[what] += sum(tagOf(one) in _SHAPES | {'use'} or tagOf(one) in _OTHERS for one in element.iter())
 
     def _use(self, element, place):
         target = hrefOf(element)
@@ -189,10 +182,9 @@ class _Walk:
         if path is None or not (isFilled or isStroked):
             self.leftOut['shapes that are not painted'] += 1
             return
-        if isFilled and isPattern(style['fill'], self.ids):
-            self.leftOut['patterns of shapes'] += 1
-        if tag in _WITH_MARKERS and any(urlOf(style[key]) in self.ids for key in style if key.startswith('marker-')):
-            self.leftOut['markers of shapes'] += 1
+        self.leftOut['patterns of shapes'] += isFilled and isPattern(style['fill'], self.ids)
+        self.leftOut['markers of shapes'] += tag in _WITH_MARKERS and any(
+            urlOf(style[key]) in self.ids for key in style if key.startswith('marker-'))
         clips = place.clips + self._clips(style, place, path)
         rule = style['clip-rule' if place.isClip else 'fill-rule']
         self.found.append(Item(path, place.matrix, isFilled, isStroked, rule, clips,

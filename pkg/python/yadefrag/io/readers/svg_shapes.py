@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 import numpy
 
 from yadefrag.io.readers import Found, ellipticArc, needed, piecesOf, requireTolerance
-from yadefrag.io.readers.loops import area, around, nested
+from yadefrag.io.readers.loops import area, around, nested, regionOf
 
 _FLAT = 1e-12  # of the square of the extent: the area of a line
 _SLIVER = 1e-9  # of the extent, or of an area: rounding, at an edge that cuts a shape
@@ -71,8 +71,7 @@ def _painted(item, tolerance, name):
         else:
             found.leftOut['shapes that are not painted'] += 1
     found.regions, covered = _filled(loops, item.rule, name)
-    if covered:
-        found.leftOut['inner lines that the fill covers'] += covered
+    found.leftOut['inner lines that the fill covers'] += covered
     return _clipped(found, item, tolerance, name) if item.clips else found
 
 
@@ -105,7 +104,7 @@ def _clipped(found, item, tolerance, name):
                 inside.regions.append((outline, holes))
                 continue
             inside.leftOut['parts that are clipped away'] += 1
-            inside.regions += [tuple(_loops(part)) for part in _parts(solid.intersection(window))
+            inside.regions += [regionOf(part) for part in _parts(solid.intersection(window))
                                if part.geom_type == 'Polygon' and part.area > _SLIVER * solid.area]
         for line in found.lines:
             whole = geometry.LineString(line)
@@ -146,12 +145,6 @@ def _isPainted(place, loops, rule):
 
 def _parts(shape):
     return [one for one in getattr(shape, 'geoms', [shape]) if not one.is_empty]
-
-
-def _loops(polygon):
-    """Outline and [holes]."""
-    outline, *holes = (numpy.array(ring.coords)[:-1] for ring in (polygon.exterior, *polygon.interiors))
-    return outline, holes
 
 
 def _subpaths(path, tolerance, name):
