@@ -224,11 +224,19 @@ def _appendPicture(fe, name, fields):
     if not fields or not len(shownTriangles(fe)):
         return
     kept = [entry for entry in _entries(name + '.pvd') if _before(entry[0], fe.time)]
-    picture = '%s_%06d.vtu' % (name, len(kept))
+    last = max([_number(picture) for _, picture in kept], default=-1)
+    picture = '%s_%06d.vtu' % (name, last + 1)
     exportVTK(fe, picture, fields)
     kept.append((fe.time, os.path.basename(picture)))
     lines = '\n'.join(_ENTRY % (time, escape(one, {'"': '&quot;'})) for time, one in kept)
     writeText(name + '.pvd', _HEAD + lines + '\n' + _END)
+
+
+def _number(picture):
+    try:
+        return int(picture.rsplit('_', 1)[1].split('.')[0])
+    except (IndexError, ValueError):
+        return -1
 
 
 def _entries(file):
