@@ -148,16 +148,6 @@ def test_aFolderThatGoesIsASentence(folder, capfd):
     assert len(written) == 2 and all('No such file or directory' in one for one in written)
 
 
-@pytest.mark.parametrize('settings, error', [
-    (dict(file='/nowhere/run'), OSError), (dict(file=3), ValueError), (dict(file=''), ValueError),
-    (dict(fields=['heat']), ValueError), (dict(fields=3), ValueError), (dict(iterPeriod='often'), ValueError),
-    (dict(iterPeriod=10**400), ValueError), (dict(virtPeriod=10**400), ValueError)])
-def test_wrongRecordersAreRefused(settings, error, folder):
-    with pytest.raises(error):
-        yadefrag.FERecorder(**{'file': folder + '/run', 'iterPeriod': 5, **settings})
-    assert os.listdir(folder) == []
-
-
 # --- engines
 
 def test_enginesTakeTheSolversGravity():

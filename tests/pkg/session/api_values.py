@@ -84,13 +84,13 @@ def others(groups):
     wrong = [object(), {'x': {1}}, b'\xff', 1j, [[1], [2, 3]]] + [None] * all(one is not None for one in forms)
     wrong += ['much', 'much' * 10**4] * (not any(isinstance(one, (str, pathlib.Path)) for one in forms))
     if isinstance(first, bool):
-        wrong += [2]
+        wrong += [2, 1]
     elif any(isinstance(one, np.uint8) for one in forms):
         wrong += [1.5, True, -1, 10**5000]
     elif isinstance(first, (int, float)):
-        wrong += [math.nan] + [True] * (len(groups) == 1)
+        wrong += [math.nan, 10**400] + [True] * (len(groups) == 1)
     elif isinstance(first, tuple) and len(first) == 2:
-        wrong += [1, (1, 2, 3), (1, math.nan)]
+        wrong += [1, (1, 2, 3), (1, math.nan), (10**400, 0)]
     return wrong
 
 

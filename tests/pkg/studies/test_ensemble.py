@@ -147,25 +147,6 @@ def test_tradeoffByAnExecutorAndAgain(folder):
     assert again.rows == first.rows  # to the last digit of the times: none was run
 
 
-@pytest.mark.parametrize('wrong, sentence', [
-    (dict(wanted=0), 'runs is 0, it must be a positive whole number'),
-    (dict(wanted=[]), r'runs is \[\], it must be a number of runs'),
-    (dict(wanted='three'), "runs is 'three', it must be a number of runs"),
-    (dict(wanted=[1.5]), 'runs has the seed 1.5, it must be a whole number, or a dict'),
-    (dict(wanted={'seed': [1, 2], 'a': [1]}), 'a dict of lists that have all the same length'),
-    (dict(wanted=[dict(value=1)]), "runs has the choice 'value', a name must be a text that is no other"),
-    (dict(wanted=[dict(passes=3)]), 'passes=3, it must be 1 or 2'),
-    (dict(wanted=[dict(a=[1])]), r'runs has the choice a=\[1\], it must be a number'),
-    (dict(executor=3), 'executor is 3, it must be None, or an executor with a method submit'),
-    (dict(workers=0), 'workers is 0, it must be a positive whole number'),
-    (dict(resume='a.txt'), "resume is 'a.txt', its name must end with '.jsonl'"),
-])
-def test_badInput(wrong, sentence):
-    arguments = {**dict(scene=scenes.flight, wanted=1), **wrong}
-    with pytest.raises(ValueError, match=sentence):
-        together(**arguments)
-
-
 def test_fileThatHoldsNoRuns(folder):
     Path(folder, 'a.jsonl').write_text('nothing\n')
     with pytest.raises(ValueError, match='a.jsonl has no runs that can be continued'):
