@@ -118,8 +118,12 @@ def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
         readOutline(written(folder, name, text), **more)
     words = str(error.value)
     assert words.endswith('.') and '\n' not in words and len(words) < 400
+
+
+@pytest.mark.parametrize('reader', [readOutline, yadefrag.readPolygon, yadefrag.readMesh])
+def test_missingFileIsNamed(folder, reader):
     with pytest.raises(FileNotFoundError, match='nowhere.dxf'):
-        readOutline(folder + '/nowhere.dxf')
+        reader(folder + '/nowhere.dxf')
 
 
 @pytest.mark.parametrize('name, module, package', [
