@@ -76,16 +76,6 @@ def spheresNow():
     return centres, radii
 
 
-def masksNow():
-    """(groupMask (n,), clumpId (n,)) by body id."""
-    n = len(O.bodies)
-    masks, clumps = [0] * n, [-1] * n
-    for body in O.bodies:
-        masks[body.id] = int(body.mask)
-        clumps[body.id] = body.clumpId
-    return masks, clumps
-
-
 def realPairs():
     """{(id1, id2) sorted: cellDist of the larger id} of all real interactions."""
     pairs = {}
@@ -98,10 +88,6 @@ def realPairs():
 def allPairs():
     """The set of (id1, id2), sorted, of all interactions, potential ones included."""
     return {tuple(sorted((i.id1, i.id2))) for i in O.interactions.all()}
-
-
-def spherePairs(pairs):
-    return {k: v for k, v in pairs.items() if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
 
 
 def stepAndCheck(avoid=0, mayMiss=(), steps=1):
@@ -124,10 +110,12 @@ def compare(centres, radii, avoid=0, mayMiss=()):
     hSize = np.array([[O.cell.hSize[r, c] for c in range(3)] for r in range(3)]) \
         if O.periodic else None
     sure, possible = contacts(centres, radii, hSize)
-    masks, clumps = masksNow()
+    bodies = {body.id: body for body in O.bodies}
+    masks = [int(bodies[i].mask) if i in bodies else 0 for i in range(len(centres))]
+    clumps = [bodies[i].clumpId if i in bodies else -1 for i in range(len(centres))]
     sure = masked(sure, masks, avoid, clumps)
     possible = masked(possible, masks, avoid, clumps)
-    found = spherePairs(realPairs())
+    found = {k: v for k, v in realPairs().items() if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
     missed = {p for p in sure if p not in found and not set(p) & set(mayMiss)}
     extra = {p for p in found if p not in possible and not set(p) & set(mayMiss)}
     assert not missed, f'step {O.iter}: {len(missed)} of {len(sure)} contacts missed: ' \
@@ -228,10 +216,17 @@ def contacts(centres, radii, hSize=None, block=512):
     centres = np.asarray(centres, float).reshape(-1, 3)
     radii = np.asarray(radii, float)
     finder = _aperiodic if hSize is None else _periodic
+    periods = np.zeros((3, 3)) if hSize is None else np.asarray(hSize, float)
     sure, possible = {}, {}
     for start in range(0, len(centres), block):
         rows = np.arange(start, min(start + block, len(centres)))
-        for i, j, overlap, slack, dist in finder(centres, radii, rows, hSize):
+        for i, j, dist in finder(centres, radii, rows, periods):
+            shift = dist @ periods.T
+            scale = np.maximum(abs(centres[i]).max(axis=1), abs(centres[j]).max(axis=1))
+            reach = radii[i] + radii[j]
+            overlap = reach - np.linalg.norm(centres[j] - centres[i] + shift, axis=1)
+            # The error of the shift itself counts, too.
+            slack = kRelative * reach + kAbsolute * (scale + 4 * abs(shift).max(axis=1))
             for k in np.nonzero(overlap >= -slack)[0]:
                 key = (int(i[k]), int(j[k]))
                 possible[key] = tuple(int(c) for c in dist[k])
@@ -240,50 +235,27 @@ def contacts(centres, radii, hSize=None, block=512):
     return sure, possible
 
 
-def _pairs(radii, rows, n):
-    i, j = np.meshgrid(rows, np.arange(n), indexing='ij')
-    upper = (i < j) & ~np.isnan(radii)[i] & ~np.isnan(radii)[j]
-    return i[upper], j[upper]
-
-
-def _overlap(centres, radii, i, j, delta):
-    scale = np.maximum(abs(centres[i]).max(axis=1), abs(centres[j]).max(axis=1))
-    reach = radii[i] + radii[j]
-    overlap = reach - np.sqrt((delta**2).sum(axis=1))
-    return overlap, kRelative * reach + kAbsolute * scale
-
-
 def _aperiodic(centres, radii, rows, _):
     # Of every pair first one coordinate, with more room than a contact has: most of the time is in the others.
     room = 1.001 * radii + 1e-12 * abs(centres).max(axis=1)
     near = abs(centres[rows, 0, None] - centres[:, 0]) <= room[rows, None] + room
-    near &= rows[:, None] < np.arange(len(centres))
-    i, j = np.nonzero(near)
-    i = rows[i]
-    overlap, slack = _overlap(centres, radii, i, j, centres[j] - centres[i])
-    yield i, j, overlap, slack, np.zeros((len(i), 3), int)
+    i, j = np.nonzero(near & (rows[:, None] < np.arange(len(centres))))
+    yield rows[i], j, np.zeros((len(i), 3), int)
 
 
 def _periodic(centres, radii, rows, hSize):
     """All lattice images that can be within reach, however the cell is sheared."""
-    hSize = np.asarray(hSize, float)
-    i, j = _pairs(radii, rows, len(centres))
-    delta = centres[j] - centres[i]
+    i, j = np.nonzero((rows[:, None] < np.arange(len(centres))) & ~np.isnan(radii[rows, None] + radii))
+    i = rows[i]
     inverse = np.linalg.inv(hSize)
-    fraction = delta @ inverse.T
+    fraction = (centres[j] - centres[i]) @ inverse.T
     nearest = -np.rint(fraction).astype(int)
     fraction = fraction + nearest
     # |row of the inverse| · |hSize f| >= |f|: no contact where some |f| exceeds this
     limit = 1e-6 + 2 * np.nanmax(radii) * np.linalg.norm(inverse, axis=1)
     for offset in itertools.product(*(range(-int(k), int(k) + 1) for k in np.ceil(limit))):
         keep = (abs(fraction + offset) <= limit).all(axis=1)
-        if not keep.any():
-            continue
-        dist = nearest[keep] + np.array(offset)
-        shift = dist @ hSize.T
-        overlap, slack = _overlap(centres, radii, i[keep], j[keep], delta[keep] + shift)
-        # the error of the shift itself counts too
-        yield i[keep], j[keep], overlap, slack + 4 * kAbsolute * abs(shift).max(axis=1), dist
+        yield i[keep], j[keep], nearest[keep] + np.array(offset)
 
 
 def masked(pairs, masks, avoid=0, clumps=None):
