@@ -21,6 +21,11 @@ def inYade(script, *arguments, timeout=300, options=(), **more):
                           stderr=subprocess.STDOUT, text=True, timeout=timeout, **more)
 
 
+def ran(*command, **more):
+    """The finished process of a command; both of its outputs are texts."""
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, **more)
+
+
 kMark = 'YADEFRAG_MPI_RUN'
 # Processes that share two cores, as root in a container.
 kMpi = dict(OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMP_NUM_THREADS='1',

@@ -42,10 +42,6 @@ def way(fe):
     return float(fe.displacements[:, 0].mean())
 
 
-def look(fe):
-    return way(fe)
-
-
 def seen(_, ways):
     """How often it was watched, and the last way that was seen."""
     return [len(ways), ways[-1]]
@@ -73,9 +69,8 @@ def place(body):
     return body.state.pos[0]
 
 
-def odd(choices):
-    """The fault that the setting names."""
-    fault = choices['fault']
+def faulty(choices, fault):
+    """A block, with a fault."""
     fe = block(choices)
     if fault == 'sentence':
         raise ValueError('this choice makes no sense.')
@@ -88,6 +83,11 @@ def odd(choices):
     if fault == 'step':
         O.dt = 0
     return fault if fault == 'nan' else fe
+
+
+def odd(choices):
+    """The fault that the setting names."""
+    return faulty(choices, choices['fault'])
 
 
 def oddWay(built):
@@ -130,13 +130,7 @@ def draw(built):
 def oddSeed(choices):
     """Seed 1 crashes, 2 is refused, 3 takes too long, 4 measures nothing."""
     seed = choices['seed']
-    if seed == 1:
-        os.abort()
-    if seed == 2:
-        raise ValueError('no such strength.')
-    if seed == 3:
-        time.sleep(60)
-    block(choices)
+    faulty(choices, {1: 'crash', 2: 'sentence', 3: 'sleep'}.get(seed))
     return seed
 
 

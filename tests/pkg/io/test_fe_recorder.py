@@ -6,11 +6,17 @@ import shutil
 import xml.etree.ElementTree as tree
 
 import meshio
+import numpy as np
 import pytest
 
 import yadefrag
 from fe_scene import fe, O, ready, solverOfScene, steps
 from yade import wrapper as w
+
+kOfNodes = {'displacement': 'displacements', 'velocity': 'velocities', 'contact force': 'contactForces',
+            'reaction': 'reactions'}
+kOfTriangles = {'stress': 'stress', 'stress zz': 'stressZ', 'strain': 'strain', 'component': 'components',
+                'fragment': 'fragmentOf'}
 
 
 def scene(file, **settings):
@@ -46,18 +52,23 @@ def test_recordsAreTheSolversValues(folder):
     for _ in range(45):
         O.step()
         if (O.iter - 1) % 10 == 0:
-            wanted.append((O.iter - 1, solver.time, solver.energy, solver.nodes, solver.reaction('floor, low')))
+            wanted.append((O.iter - 1, solver.time, solver.energy, solver.nodes, solver.reaction('floor, low'),
+                           {name: getattr(solver, array) for name, array in {**kOfNodes, **kOfTriangles}.items()}))
     rows, pictures = table(file), series(file)
     assert [int(row['step']) for row in rows] == [one[0] for one in wanted] == [0, 10, 20, 30, 40]
-    for row, (time, picture), (_, when, energy, nodes, force) in zip(rows, pictures, wanted):
+    for row, (time, picture), (_, when, energy, nodes, force, arrays) in zip(rows, pictures, wanted):
         assert float(row['time (s)']) == time == when
         assert all(float(row['%s (J)' % name]) == energy[name]
                    for name in ('kinetic', 'strain', 'contact', 'outside', 'total'))
         assert float(row['reaction y of floor  low (N)']) == force[1] == float(row['reaction y (N)'])
         mesh = meshio.read(os.path.join(folder, picture))
-        assert (mesh.points[:, :2] == nodes).all()
-        assert set(mesh.point_data) == {'displacement', 'velocity', 'contact force', 'reaction'}
-        assert set(mesh.cell_data) == {'stress', 'stress zz', 'strain', 'component', 'fragment'}
+        assert (mesh.points == np.pad(nodes, ((0, 0), (0, 1)))).all() and (mesh.cells_dict['triangle'] == solver.triangles).all()
+        assert set(mesh.point_data) == set(kOfNodes) and set(mesh.cell_data) == set(kOfTriangles)
+        for name in kOfNodes:
+            assert (mesh.point_data[name] == np.pad(arrays[name], ((0, 0), (0, 1)))).all()
+        for name in kOfTriangles:
+            assert (mesh.cell_data[name][0] == arrays[name]).all()
+    assert all(any(np.any(one[-1][name]) for one in wanted) for name in wanted[0][-1])  # none is zero everywhere
 
 
 def test_fieldsAreChosen(folder):
@@ -73,7 +84,10 @@ def test_fieldsAreChosen(folder):
 
 @pytest.mark.parametrize('ending', ['.yade', '.xml'])
 def test_takenUpAgainWithoutDoubles(folder, ending):
+    """Other files of this name are replaced."""
     file = folder + '/run'
+    for old in ('.csv', '.pvd'):
+        pathlib.Path(file + old).write_text('something else\n1,2\n')
     scene(file)
     O.run(25, True)
     O.save(folder + '/scene' + ending)
@@ -113,15 +127,6 @@ def test_recordsOfBodiesThatComeAndGoStay(folder):
     assert table(file)[-1]['step'] == '70' and len(table(file)) == 7 and len(series(file)) == 6
 
 
-def test_otherFilesOfThisNameAreReplaced(folder):
-    file = folder + '/run'
-    for ending in ('.csv', '.pvd'):
-        pathlib.Path(file + ending).write_text('something else\n1,2\n')
-    scene(file)
-    steps(1)
-    assert len(table(file)) == len(series(file)) == 1
-
-
 @pytest.mark.parametrize('small', ['32k'], indirect=True)
 def test_aFullDiskIsASentenceAndTheRunGoesOn(small, capfd):
     file = small + '/run'
@@ -146,16 +151,6 @@ def test_aFolderThatGoesIsASentence(folder, capfd):
     steps(30)
     written = told(capfd)
     assert len(written) == 2 and all('No such file or directory' in one for one in written)
-
-
-@pytest.mark.parametrize('settings, error', [
-    (dict(file='/nowhere/run'), OSError), (dict(file=3), ValueError), (dict(file=''), ValueError),
-    (dict(fields=['heat']), ValueError), (dict(fields=3), ValueError), (dict(iterPeriod='often'), ValueError),
-    (dict(iterPeriod=10**400), ValueError), (dict(virtPeriod=10**400), ValueError)])
-def test_wrongRecordersAreRefused(settings, error, folder):
-    with pytest.raises(error):
-        yadefrag.FERecorder(**{'file': folder + '/run', 'iterPeriod': 5, **settings})
-    assert os.listdir(folder) == []
 
 
 # --- engines

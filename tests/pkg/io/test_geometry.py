@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from outline_files import area, contour, isOneSentence, offLine, written
+from outline_files import area, contour, offLine, written
 from yadefrag import _yadefrag
 from yadefrag.fe import geometry
 from yadefrag.fe.geometry import grainJoints, simplified, voronoi
@@ -31,40 +31,6 @@ def test_rectangleCircleAndRing():
     outline, holes = geometry.ring((0, 0), .8, 1, 12)
     assert outline == geometry.circle((0, 0), 1, 12)
     assert holes == [geometry.circle((0, 0), .8, 12)]
-
-
-@pytest.mark.parametrize('call, words', [
-    (lambda: geometry.rectangle((0, 0), (0, 1)), ('high', '(0, 1)', 'low')),
-    (lambda: geometry.rectangle((0, 0, 0), (1, 1)), ('low', '(0, 0, 0)', 'pair')),
-    (lambda: geometry.rectangle(3, (1, 1)), ('low', '3', 'pair')),
-    (lambda: geometry.rectangle((0, 0), (1, math.nan)), ('high', 'nan', 'finite')),
-    (lambda: geometry.circle((0, math.inf), 1), ('centre', 'inf', 'finite')),
-    (lambda: geometry.circle((0, 0), 0), ('radius', '0', 'positive')),
-    (lambda: geometry.circle((0, 0), 'a'), ('radius', "'a'", 'number')),
-    (lambda: geometry.circle((0, 0), math.nan), ('radius', 'nan', 'positive')),
-    (lambda: geometry.circle((0, 0), 1, 2), ('n', '2', 'at least 3')),
-    (lambda: geometry.circle((0, 0), 1, 3.5), ('n', '3.5', 'whole')),
-    (lambda: geometry.ring((0, 0), 1, 1), ('inner', '1 m', 'less than outer')),
-    (lambda: geometry.ring((0, 0), -1, 1), ('inner', '-1', 'positive')),
-    (lambda: voronoi([(0, 0), (1, 0)], 3), ('outline', '2 points')),
-    (lambda: voronoi([(0, 0), (1, 1), (1, 0), (0, 1)], 3), ('vertex', 'outline')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 0), ('n is 0', 'positive whole')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 10**6), ('n is 1000000', 'at most')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 3, seed=-1), ('seed is -1', '0 or more')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 3, rounds=1.5), ('rounds is 1.5', 'whole')),
-    (lambda: voronoi(geometry.circle((0, 0), 1), 3, shortest=-1), ('shortest is -1', '0 or a')),
-    (lambda: voronoi(geometry.rectangle((0, 0), (1, 1)), 30, shortest=.8),
-     ('shortest is 0.8 m, too long for these grains',)),
-    (lambda: voronoi([(0, 0), (1, 1), (1 + 1e-9, 1)], 3), ('no room for 3 grains',)),
-    (lambda: voronoi([(1e17, 1e17), (1e17 + 64, 1e17), (1e17, 1e17 + 64)], 50), ('too far from the origin',)),
-    (lambda: grainJoints(3), ('grains is 3', 'list of outlines')),
-    (lambda: grainJoints([[(0, 0)]]), ('grains[0]', '1 points')),
-])
-def test_badArgumentsAreNamed(call, words):
-    with pytest.raises(ValueError) as error:
-        call()
-    assert isOneSentence(error)
-    assert all(word in str(error.value) for word in words)
 
 
 def test_polygonFileIsRead(folder):
@@ -160,8 +126,7 @@ def test_impossibleTolerances(monkeypatch):
     plate = [np.array(yadefrag.rectangle(*corners), dtype=float)
              for corners in (((0, 0), (4, 2)), ((1, 1), (1.2, 1.2)))]
     for loops, tolerance, words in (
-            (plate, 0, 'simplify is 0, it must be a positive number'), (plate, math.nan, 'simplify is nan'),
-            (plate, .7, 'the outline could vanish; it must be less than'), (plate, .05, 'hole 0 could vanish'),
+            (plate, .05, 'hole 0 could vanish'),
             ([np.array([(0, 0), (1, 1), (1, 0), (0, 1)], dtype=float)], .01, 'vertex')):
         with pytest.raises(ValueError, match=words):
             fewer(loops, tolerance)
@@ -192,6 +157,8 @@ def checkGrains(outline, grains):
     assert len(sides) == len(every)
     alone = sum(math.dist(a, b) for a, b in sides if (b, a) not in sides)
     assert alone == pytest.approx(sum(math.dist(*side) for side in sidesOf(outline)), rel=1e-12)
+    joints = grainJoints(grains)
+    assert len(joints) == (len(sides) - sum((b, a) not in sides for a, b in sides)) / 2 and set(joints) <= sides
 
 
 def spread(grains):
@@ -235,13 +202,3 @@ def test_grainsOfAnySizeAndWithoutShapely(monkeypatch):
     monkeypatch.setitem(sys.modules, 'shapely.ops', None)
     with pytest.raises(ImportError, match="voronoi works only with .* install Debian's package python3-shapely[.]$"):
         voronoi(kPlate, 3)
-
-
-def test_grainsShareSides():
-    outline = geometry.rectangle((0, 0), (2, 1))
-    grains = voronoi(outline, 20)
-    joints = grainJoints(grains)
-    inner = sum(math.dist(*side) for side in joints)
-    around = sum(math.dist(*side) for grain in grains for side in sidesOf(grain))
-    assert around == pytest.approx(2 * inner + 6, rel=1e-12)
-    assert grainJoints(grains[:1]) == []

@@ -15,7 +15,7 @@ import pytest
 from fe_scene import fe, O
 from outline_files import areas, glued, lists, refusesMesh, written
 from yade import wrapper as w
-from yadefrag import readMesh, rectangleMesh
+from yadefrag import readMesh
 from yadefrag.io.readers import gmsh
 
 # A strip of 2 × 1 squares: one cut in triangles (steel, the second clockwise), one a quad (stone);
@@ -148,26 +148,27 @@ def test_meshGoesIntoAddTriangles(folder):
     ('a.abc', '', 'a.abc is not a readable mesh'),
     ('a.inp', '*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n', 'a.inp has no triangles'),
     ('a.msh', '$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n', 'its version is 1, versions 2 and 4 can be read'),
+    ('a.msh', kFour.replace('2 2 3 1\n', '2 2 34 1\n'), "element 50 has gmsh's type 34, which is unknown"),
+    ('a.msh', kFour.replace('50 12 3 6 5', '50 12 3 6 77'), 'element 50 has the node 77, which does not exist'),
+    ('a.msh', kFour.replace('50 12 3 6 5\n', ''), 'a section ends too early'),
+    ('a.msh', kFour.replace('$EndElements\n', ''), 'section [$]Elements has no end'),
+    ('a.msh', kFour.replace('$Nodes', '$Nodos'), 'section [$]Nodos has no end'),
+    ('a.msh', kFour.replace('4.1 0 8', '5.0 0 8'), 'its version is 5.0, versions 2 and 4 can be read'),
+    ('a.msh', kFour.replace('$Nodes', '$PartitionedEntities\n0\n$EndPartitionedEntities\n$Nodes'), 'it is divided in partitions'),
+    ('a.msh', kFour.replace('2 0 0\n0 1 0\n1 1 0', '2 nan 0\n0 1 0\n1 1 0'), 'a.msh has points that are not finite'),
+    *[('a.inp', glued(order=(0, 1, 3, 2), gap=gap), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross')
+      for gap in (0, 1e-3)],
+    ('a.inp', glued(cohesive='COHAX4'), r'it has axisymmetric elements \(COHAX4\) and plane ones \(CPE4\)'),
+    ('a.inp', glued(plane='CAX4'), r'it has axisymmetric elements \(CAX4\) and plane ones \(COH2D4\)'),
 ])
 def test_wrongFilesAreRefusedInOneSentence(folder, name, text, sentence):
     refusesMesh(folder, name, text, sentence)
 
 
-def test_missingLibraryAndFile(folder, monkeypatch):
-    with pytest.raises(FileNotFoundError, match='nowhere.msh'):
-        readMesh(folder + '/nowhere.msh')
+def test_missingLibrary(folder, monkeypatch):
     monkeypatch.setitem(sys.modules, 'meshio', None)
     with pytest.raises(ImportError, match="install Debian's package python3-meshio[.]"):
         readMesh(written(folder, 'a.vtk', 'nothing'))
-
-
-def test_pointsOfThreeColumnsGoIntoAddTriangles():
-    nodes, triangles = rectangleMesh((0, 0), (1, 2), 3, 5)
-    solver = fe()
-    solver.addTriangles(np.column_stack([nodes, np.full(len(nodes), 7.)]), triangles, material='m')
-    assert (solver.nodes == nodes).all()
-    with pytest.raises(ValueError, match=r'^nodes must be a list of points \(x, y\) in m'):
-        solver.addTriangles(np.column_stack([nodes, np.arange(len(nodes))]), triangles, material='m')
 
 
 def rows():
@@ -325,21 +326,6 @@ def test_byteOrderMarkAndWindowsLines(folder):
     assert areas(mesh).tolist() == [.5] * 4 and set(mesh.groups) == {'Stähl A', 'whole', '7'}
 
 
-@pytest.mark.parametrize('old, new, sentence', [
-    ('2 2 3 1\n', '2 2 34 1\n', "element 50 has gmsh's type 34, which is unknown"),
-    ('50 12 3 6 5', '50 12 3 6 77', 'element 50 has the node 77, which does not exist'),
-    ('50 12 3 6 5\n', '', 'a section ends too early'),
-    ('$EndElements\n', '', 'section [$]Elements has no end'),
-    ('$Nodes', '$Nodos', 'section [$]Nodos has no end'),
-    ('4.1 0 8', '5.0 0 8', 'its version is 5.0, versions 2 and 4 can be read'),
-    ('$Nodes', '$PartitionedEntities\n0\n$EndPartitionedEntities\n$Nodes', 'it is divided in partitions'),
-    ('2 0 0\n0 1 0\n1 1 0', '2 nan 0\n0 1 0\n1 1 0', 'a.msh has points that are not finite'),
-])
-def test_damagedFilesAreRefused(folder, old, new, sentence):
-    assert kFour.count(old) >= 1
-    refusesMesh(folder, 'a.msh', kFour.replace(old, new), sentence)
-
-
 @pytest.mark.parametrize('isBinary', [False, True])
 def test_everyCutOfAFileIsRefused(folder, isBinary):
     file = os.path.join(folder, 'a.msh')
@@ -363,12 +349,3 @@ def test_cohesiveElementsThatAreNoJointsAreTold(folder, old, new, order, words):
     with pytest.warns(UserWarning, match='left out are 4 elements of the type COH2D4 %s, which connect parts' % words):
         mesh = readMesh(written(folder, 'a.inp', glued(order=order).replace(old, new)))
     assert len(mesh.nodes) == 30 and len(mesh.joints) == len(mesh.jointStrength) == 0
-
-
-@pytest.mark.parametrize('given, sentence', [
-    (dict(order=(0, 1, 3, 2)), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross'),
-    (dict(order=(0, 1, 3, 2), gap=1e-3), r'element 47 \(COH2D4\) has its nodes in a wrong order: its sides cross'),
-    (dict(cohesive='COHAX4'), r'it has axisymmetric elements \(COHAX4\) and plane ones \(CPE4\)'),
-    (dict(plane='CAX4'), r'it has axisymmetric elements \(CAX4\) and plane ones \(COH2D4\)')])
-def test_wrongCohesiveElementsAreRefused(folder, given, sentence):
-    refusesMesh(folder, 'a.inp', glued(**given), sentence)

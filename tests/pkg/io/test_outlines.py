@@ -110,9 +110,6 @@ def test_whatIsReadGoesIntoAddPolygon(folder):
     ('a.wkt', 'POLYGON((0 0, 1 0, 1 1, 0 0))', dict(leastArea=2), 'no closed line around leastArea'),
     ('a.csv', '0 0\n1 0\n1 one\n', {}, r"a.csv, line 3: '1 one', it must be two finite numbers"),
     ('a.csv', '0 0\n1 nan\n1 1\n', {}, r"a.csv, line 2: '1 nan', it must be two finite numbers"),
-    ('a.csv', '0 0\n1 0\n1 1\n', dict(scale=0), 'scale is 0, it must be a positive number'),
-    ('a.csv', '0 0\n1 0\n1 1\n', dict(gap=-1), 'gap is -1, it must be a positive number'),
-    ('a.csv', '0 0\n1 0\n1 1\n', dict(leastArea=-1), 'leastArea is -1, it must be 0 or a positive'),
     ('a.png', 'no picture', {}, 'tolerance is None, but .*a.png is a picture'),
     ('a.png', 'no picture', dict(tolerance=1), 'a.png is not a readable picture'),
 ])
@@ -121,8 +118,12 @@ def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
         readOutline(written(folder, name, text), **more)
     words = str(error.value)
     assert words.endswith('.') and '\n' not in words and len(words) < 400
+
+
+@pytest.mark.parametrize('reader', [readOutline, yadefrag.readPolygon, yadefrag.readMesh])
+def test_missingFileIsNamed(folder, reader):
     with pytest.raises(FileNotFoundError, match='nowhere.dxf'):
-        readOutline(folder + '/nowhere.dxf')
+        reader(folder + '/nowhere.dxf')
 
 
 @pytest.mark.parametrize('name, module, package', [
@@ -193,22 +194,6 @@ def test_simplifyTakesTheCostAway():
     outline = [(x, 1e-4 * (i % 2)) for i, x in enumerate(bumps)] + [(1, 1), (0, 1)]
     assert report(outline)['ratio'] == pytest.approx(20, rel=.01)
     assert report(outline, simplify=1e-3)['ratio'] == 1 and len(O.bodies) == 0
-
-
-@pytest.mark.parametrize('call, sentence', [
-    (lambda: report(kUnit[:2]), 'outline has 2 points, it must have at least 3'),
-    (lambda: report(kUnit, 3), 'holes is 3, it must be a list of loops'),
-    (lambda: report(kUnit, [[1]]), r'holes\[0\] must be a list of points'),
-    (lambda: report(kUnit, size=0), 'size is 0, it must be a positive number'),
-    (lambda: report(kUnit, material='wood'), "material is 'wood', which is not in O.materials"),
-    (lambda: report(kUnit, simplify=1), 'could vanish'),
-    (lambda: report([(0, 0), (0, 0), (1, 0), (0, 1)]), r'touches itself at \(0, 0\)'),
-    (lambda: report([(0, 0), (1, 0), (1, 1), (.5, 0)]), r'touches itself at \(0.5, 0\)'),
-])
-def test_wrongArguments(call, sentence):
-    fe()
-    with pytest.raises(ValueError, match=sentence):
-        call()
 
 
 def byAllPairs(loops):

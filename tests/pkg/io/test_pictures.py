@@ -22,18 +22,11 @@ from yadefrag.plots import pictures
 O = scenes.O
 
 
-def noCracks():
-    return dict(held=numpy.empty(0, dtype=bool), nodes=numpy.empty((0, 4), dtype=int),
-                triangle=numpy.empty(0, dtype=int), damage=numpy.empty(0))
-
-
-def standIn(**values):
-    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, _cracks=noCracks, axisymmetric=False,
-                                 **values)
-
-
 def makeSolver():
-    return standIn(
+    noCracks = dict(held=numpy.empty(0, dtype=bool), nodes=numpy.empty((0, 4), dtype=int), triangle=numpy.empty(0, dtype=int),
+                    damage=numpy.empty(0))
+    return types.SimpleNamespace(
+        _lock=lambda: None, _unlock=lambda: None, _cracks=lambda: noCracks, axisymmetric=False,
         nodes=numpy.array([[0, 0], [1, 0], [1, 1], [0, 1.]]),
         displacements=numpy.array([[0, 0], [.1, 0], [.1, .2], [0, .2]]),
         velocities=numpy.array([[3., 4], [0, 0], [1, 0], [0, 2]]),
@@ -44,23 +37,6 @@ def makeSolver():
         stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]), stressZ=numpy.array([0, 1e6]),
         components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]),
         dropped=dict(count=0))
-
-
-def test_vtkFileHoldsEverything(folder):
-    fe = makeSolver()
-    recorder.exportVTK(fe, folder + '/out.vtu')
-    mesh = meshio.read(folder + '/out.vtu')
-    assert numpy.array_equal(mesh.points[:, :2], fe.nodes) and not mesh.points[:, 2].any()
-    assert numpy.array_equal(mesh.cells_dict['triangle'], fe.triangles)
-    for name, values in (('displacement', fe.displacements), ('velocity', fe.velocities),
-                         ('contact force', fe.contactForces), ('reaction', fe.reactions)):
-        assert numpy.array_equal(mesh.point_data[name][:, :2], values), name
-        assert not mesh.point_data[name][:, 2].any()
-    for name, values in (('stress', fe.stress), ('strain', fe.strain), ('component', fe.components),
-                         ('fragment', fe.fragmentOf)):
-        assert numpy.array_equal(mesh.cell_data[name][0], values), name
-    with pytest.raises(ValueError, match=r"out\.vtk', its name must end with '\.vtu'"):
-        recorder.exportVTK(fe, folder + '/out.vtk')
 
 
 def shown(ax):
@@ -287,24 +263,6 @@ def test_severalFieldsSideBySide(folder):
     wide[0].figure.canvas.draw()
     assert wide[0].get_position().y0 > wide[1].get_position().y1
     assert [ax.collections[-1].get_clim() for ax in wide] == [(0, 1)] * 2
-
-
-@pytest.mark.parametrize('change, sentence', [
-    (dict(field='heat'), "field is 'heat', it must be one of 'displacement'"),
-    (dict(field=[1, 2, 3]), r'shape \(3,\).*2 triangles or of the 4 nodes\.'),
-    (dict(xlim=3), 'xlim is 3, it must be a pair of numbers'),
-    (dict(ylim=(1, 0)), r'ylim is \(1, 0\), it must be a pair of numbers \(m\), the lower one first'),
-    (dict(xlim=(0, float('inf'))), 'xlim is'), (dict(spheres=1), 'spheres is 1, it must be True'),
-    (dict(rigidBodies=0), 'rigidBodies is 0, it must be True'),
-    (dict(fields=[]), r'fields is \[\], it must be a list of 1 to 12'),
-    (dict(fields='xx'), "fields is 'xx', it must be a list"),
-    (dict(fields=['xx', 'zx']), "field is 'zx', it must be one of"),
-    (dict(fields=['xx'], field='yy'), 'fields comes with field or ax'),
-    (dict(fields=['xx', 'yy'], limits=[(0, 1)]), 'a list with a pair or None for each of the 2 fields'),
-])
-def test_wrongWindowsAndFields(change, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        pictures.plotMesh(makeSolver(), **change)
 
 
 def test_curvesOfFractureAreDistinguishable(folder):

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 from yadefrag import support
-from project import ROOT
+from project import ran, ROOT
 
 # Last: its modules have names that other folders have, too.
 sys.path.append(str(ROOT / 'tests' / 'benchmark'))
@@ -15,8 +15,7 @@ import codes  # noqa: E402
 
 
 def ask(*command, **more):
-    return subprocess.run([str(ROOT / 'scripts' / command[0]), *command[1:]], text=True, cwd=ROOT, capture_output=True,
-                          stdin=subprocess.DEVNULL, env={**os.environ, **more}, check=False)
+    return ran(ROOT / 'scripts' / command[0], *command[1:], cwd=ROOT, stdin=subprocess.DEVNULL, env={**os.environ, **more})
 
 
 def requireRefused(done, *words):
@@ -86,8 +85,8 @@ def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
     (tmp_path / 'scripts').mkdir()
     (tmp_path / 'scripts' / 'in-release').write_text(changed)
     (tmp_path / 'scripts' / 'common.sh').write_text((ROOT / 'scripts' / 'common.sh').read_text())
-    done = subprocess.run(['bash', str(tmp_path / 'scripts' / 'in-release'), 'trixie', 'true'], capture_output=True,
-                          text=True, check=False, env={**os.environ, 'YADEFRAG_ROOTS': str(tmp_path / 'roots')})
+    done = ran('bash', tmp_path / 'scripts' / 'in-release', 'trixie', 'true',
+               env={**os.environ, 'YADEFRAG_ROOTS': str(tmp_path / 'roots')})
     if 'lets no file system be mounted' in done.stderr:
         pytest.skip('this machine permits no mounts: the server is not asked')
     assert done.returncode == 75 and 'cannot be fetched' in done.stderr
@@ -149,8 +148,7 @@ def installed(folder, features='LOGGER OPENMP LIQMIGRATION', bits=64, version='2
 
 
 def asked(*arguments):
-    return subprocess.run(['/usr/bin/python3', str(TOOL), *map(str, arguments)], capture_output=True, text=True,
-                          check=False)
+    return ran('/usr/bin/python3', TOOL, *arguments)
 
 
 def test_flagsFollowFromTheFeatures(tmp_path):
@@ -181,8 +179,7 @@ def test_otherBuildsAreRefusedInOneSentence(tmp_path, change, words):
 def test_checkoutMustBeAtTheCommitOfTheBuild(tmp_path):
     """config.py of a YADE from a Git checkout names the commit."""
     def git(*arguments):
-        return subprocess.run(['git', '-c', 'user.name=a', '-c', 'user.email=a@b', '-C', str(tmp_path / 'trunk'),
-                               *arguments], capture_output=True, text=True, check=True).stdout.strip()
+        return ran('git', '-c', 'user.name=a', '-c', 'user.email=a@b', '-C', tmp_path / 'trunk', *arguments).stdout.strip()
 
     libraries = installed(tmp_path, version='VERSION', release='')
     git('init', '-q')
@@ -204,8 +201,7 @@ def test_sourcesThatHaveMovedAreAskedFor(tmp_path):
 
 def complaint(**given):
     """Of CMake's search for the folder of libraries."""
-    done = subprocess.run(['cmake', *['-D%s=%s' % item for item in given.items()], '-P',
-                           str(ROOT / 'cmake' / 'yade_folder.cmake')], capture_output=True, text=True, check=False)
+    done = ran('cmake', *['-D%s=%s' % item for item in given.items()], '-P', ROOT / 'cmake' / 'yade_folder.cmake')
     return ' '.join(done.stderr.split()) if done.returncode else ''
 
 

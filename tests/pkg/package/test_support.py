@@ -6,7 +6,6 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import sysconfig
 import types
@@ -15,7 +14,7 @@ import pytest
 import yade
 from yade import config, wrapper
 from yadefrag import _yadefrag, support
-from project import ROOT
+from project import ran, ROOT
 
 ABI = ROOT / 'pkg' / 'yade'
 sys.path.insert(0, str(ABI / 'tools'))
@@ -50,7 +49,7 @@ def test_otherYadeIsNamedInOneSentence(version, precision, features, found, need
     assert sentence.count('. ') == 0 and sentence.endswith('.') and '\n' not in sentence
 
 
-def test_everyDifferenceIsNamed():
+def test_everyDifferenceIsNamed(monkeypatch):
     """None for the stock YADE; a version for which there are other builds as such; config.py without the fields."""
     assert support.describeMismatch(support.VERSION, 'PrecisionDouble', STOCK) == ''
     others = [version for version in support.ACCEPTED if version != support.VERSION]
@@ -62,10 +61,7 @@ def test_everyDifferenceIsNamed():
     assert all(word in sentence for word in ('1.0', 'PrecisionFloat', 'no OPENMP', 'no MPI', 'has', 'SPH'))
     modules = {'yade.wrapper': None, 'yade.config': types.SimpleNamespace()}
     assert 'unknown' in support.describeSurroundings(modules)
-
-
-def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
-    """A build for a YADE whose layout is known, but without a test run."""
+    # A build for a YADE whose layout is known, but without a test run.
     monkeypatch.setattr(support, 'VERSION', '2027.1.0')
     sentence = support.describeMismatch('2027.1.0', 'PrecisionDouble', STOCK)
     assert 'never tested with it' in sentence and '2023.02a' in sentence
@@ -74,8 +70,7 @@ def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
 
 def test_plainPythonIsReferredToYade():
     package = pathlib.Path(support.__file__).parent.parent
-    done = subprocess.run([sys.executable, '-c', 'import yadefrag'], capture_output=True, text=True,
-                          env={**os.environ, 'PYTHONPATH': str(package)}, check=False)
+    done = ran(sys.executable, '-c', 'import yadefrag', env={**os.environ, 'PYTHONPATH': str(package)})
     assert done.returncode == 1
     last = done.stderr.strip().splitlines()[-1]
     assert last.startswith('ImportError: ') and 'run by the command `yade`' in last
@@ -99,8 +94,7 @@ def test_yadesOwnClassesAreNotReplaced():
 
 def test_ownCopiesOfEigenCgalAndFmtStayInside():
     """YADE's, compiled with other options, would be called instead."""
-    lines = subprocess.run(['nm', '-DC', '--defined-only', _yadefrag.__file__], check=True, capture_output=True,
-                           text=True).stdout.splitlines()
+    lines = ran('nm', '-DC', '--defined-only', _yadefrag.__file__).stdout.splitlines()
     names = [line.split(' ', 2)[2] for line in lines]
     assert 'PyInit__yadefrag' in names
     assert any(name.startswith('typeinfo for yade') for name in names), 'one with YADE\'s'
@@ -117,12 +111,9 @@ def compiled(tmp_path, version):
     assert make_table.main(version, '0', tmp_path / 'yade', tmp_path / '_built.py') == 0
     dump = tmp_path / 'classes.txt'
     folders = ['/usr/include/eigen3', sysconfig.get_paths()['include']]
-    done = subprocess.run(
-        ['g++', '-std=c++20', '-w', '-fsyntax-only', '-fdump-lang-class=%s' % dump,
-         '-DEIGEN_DONT_VECTORIZE', '-DEIGEN_DONT_ALIGN', '-DYADE_MPI', '-DBOOST_BIND_GLOBAL_PLACEHOLDERS',
-         '-I%s' % ABI.parent, '-I%s' % tmp_path, *['-isystem' + folder for folder in folders],
-         str(ABI / 'layout_checks.cpp')], capture_output=True, text=True, check=False)
-    return done, dump
+    return ran('g++', '-std=c++20', '-w', '-fsyntax-only', '-fdump-lang-class=%s' % dump, '-DEIGEN_DONT_VECTORIZE',
+               '-DEIGEN_DONT_ALIGN', '-DYADE_MPI', '-DBOOST_BIND_GLOBAL_PLACEHOLDERS', '-I%s' % ABI.parent, '-I%s' % tmp_path,
+               *['-isystem' + folder for folder in folders], ABI / 'layout_checks.cpp'), dump
 
 
 def declared():
@@ -158,11 +149,6 @@ def test_acceptedVersionsAreThoseThatWereRun():
     assert config.version in support.ACCEPTED and support.VERSION == config.version
 
 
-def demangled(names):
-    return subprocess.run(['c++filt'], input='\n'.join(names), capture_output=True, text=True,
-                          check=True).stdout.splitlines()
-
-
 class Symbol(ctypes.Structure):
     _fields_ = [('file', ctypes.c_char_p), ('begin', ctypes.c_void_p), ('name', ctypes.c_char_p),
                 ('address', ctypes.c_void_p)]
@@ -193,7 +179,8 @@ def test_virtualFunctionsOfTheRunningYadeAreTheMeasuredOnes():
         wanted += [(name, at, function) for at, functions in entry['virtuals'].items() for function in functions]
     assert len(names) == len(wanted) > 500
     compared = 0
-    for (name, at, function), spelled in zip(wanted, demangled(names)):
+    demangled = ran('c++filt', input='\n'.join(names)).stdout.splitlines()
+    for (name, at, function), spelled in zip(wanted, demangled, strict=True):
         # Functions of the same code, e.g. of two empty destructors, may have one symbol's name.
         if not spelled or function == '~':
             continue

@@ -5,6 +5,7 @@ Each call must succeed, or be refused in a sentence and change nothing. LOG has 
 under way, and `FOUND` before a line for each that did neither.
 """
 import builtins
+import concurrent.futures
 import hashlib
 import inspect
 import os
@@ -13,9 +14,7 @@ import random
 import re
 import sys
 import tempfile
-import threading
 import time
-import types
 
 kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
@@ -140,68 +139,52 @@ def targets(fe, table):
 
 # --- one call
 
-class Call:
-    """A drawn call: what it is as text, and the function that does it."""
+def drawn(draw, fe, folder, table):
+    """(a call as text, the function that does it, does it run the scene before a function of the script is called?)"""
+    def wrong(right=None):
+        if draw.random() < .6:
+            return api_values.alike(draw, fe, right)
+        return api_values.anything(draw, fe)
 
-    def __init__(self, draw, fe, folder, table):
-        self.draw, self.fe, self.folder, self.table = draw, fe, folder, table
-        # Not all kinds are as rich.
-        kind = draw.choice([self.ofFunction, self.ofFunction, self.ofMethod, self.ofAttribute, self.ofClass])
-        self.mayStep = False  # it runs the scene before a function of the script is called
-        self.text, self.function = kind()
+    known, target, listed, args = calls(fe, folder), draw.choice(targets(fe, table)), [], {}
+    label = type(target).__name__ + '.'
+    # Not all kinds are as rich.
+    kind = draw.choice(['function', 'function', 'function', 'method', 'attribute', 'class'])
+    if kind == 'function':
+        label = draw.choice(list(known))
+        function, groups, args = known[label]
+        replace(draw, groups, args, wrong)
+    elif kind == 'method':
+        name = draw.choice([one for one in methods(type(target)) if one not in known or target is not fe])
+        label, function = label + name, getattr(target, name)
+        listed = [wrong() for _ in range(draw.choice([0, 1, 1, 2, 3]))]
+    elif kind == 'attribute' and settable(type(target)):
+        name = draw.choice(settable(type(target)))
+        label, function, listed = label + name, lambda value: setattr(target, name, value), [wrong(getattr(target, name))]
+    else:
+        function = draw.choice(ownClasses() + [scene_choices.Choices])
+        values, label = presets(function), function.__name__
+        names = draw.choices(list(values) or ['rows', 'title', 'settings'], k=draw.choice([0, 1, 2]))
+        args = {name: wrong(values.get(name)) for name in names}
+        listed = [wrong() for _ in range(draw.choice([0, 0, 1, 2]))]
+    text = '%s(%s)' % (label, ', '.join([*map(shown, listed), *('%s=%s' % (n, shown(v)) for n, v in args.items())]))
+    return text, lambda: function(*listed, **args), callable(args.get('call')) or label == 'relax'
 
-    def wrong(self, right=None):
-        if self.draw.random() < .6:
-            return api_values.alike(self.draw, self.fe, right)
-        return api_values.anything(self.draw, self.fe)
 
-    def withKeywords(self, label, called):
-        """Of right arguments one or two replaced, left out or added."""
-        function, groups, args = called
-        for _ in range(self.draw.choice([1, 1, 1, 2])):
-            if not groups or self.draw.random() < .02:
-                args[self.draw.choice(['nope', 'fe', 'size'])] = self.wrong()
-                continue
-            name = self.draw.choice(list(groups))
-            if self.draw.random() < .05:
-                args.pop(name, None)
-            else:
-                args[name] = self.wrong(self.draw.choice(groups[name])[0])
-        for many in ('steps', 'every', 'repeats', 'most'):  # right, but for ever
-            if (real(args.get(many)) or 0) > 100:
-                args[many] = 10**400
-        self.mayStep = callable(args.get('call')) or label.endswith('relax')
-        return '%s(%s)' % (label, ', '.join('%s=%s' % (n, shown(v)) for n, v in args.items())), \
-            lambda: function(**args)
-
-    def ofFunction(self):
-        known = calls(self.fe, self.folder)
-        name = self.draw.choice(list(known))
-        return self.withKeywords(name, known[name])
-
-    def ofMethod(self):
-        target = self.draw.choice(targets(self.fe, self.table))
-        name = self.draw.choice(methods(type(target)))
-        known = calls(self.fe, self.folder)
-        if name in known and target is self.fe:
-            return self.withKeywords('FESolver.' + name, known[name])
-        args = [self.wrong() for _ in range(self.draw.choice([0, 1, 1, 2, 3]))]
-        return '%s.%s(%s)' % (type(target).__name__, name, ', '.join(map(shown, args))), lambda: getattr(target, name)(*args)
-
-    def ofAttribute(self):
-        target = self.draw.choice(targets(self.fe, self.table)[:11])
-        name = self.draw.choice(settable(type(target)))
-        value = self.wrong(getattr(target, name))
-        return '%s.%s = %s' % (type(target).__name__, name, shown(value)), lambda: setattr(target, name, value)
-
-    def ofClass(self):
-        cls = self.draw.choice(ownClasses() + [scene_choices.Choices])
-        names = list(presets(cls)) or ['rows', 'title', 'settings']
-        args = {}
-        for name in self.draw.choices(names, k=self.draw.choice([0, 1, 2])):
-            args[name] = self.wrong(presets(cls).get(name))
-        listed = [self.wrong() for _ in range(self.draw.choice([0, 0, 1, 2]))]
-        return '%s(*%s, **%s)' % (cls.__name__, shown(listed), shown(args)), lambda: cls(*listed, **args)
+def replace(draw, groups, args, wrong):
+    """Of right arguments one or two replaced, left out or added."""
+    for _ in range(draw.choice([1, 1, 1, 2])):
+        if not groups or draw.random() < .02:
+            args[draw.choice(['nope', 'fe', 'size'])] = wrong()
+            continue
+        name = draw.choice(list(groups))
+        if draw.random() < .05:
+            args.pop(name, None)
+        else:
+            args[name] = wrong(draw.choice(groups[name])[0])
+    for many in ('steps', 'every', 'repeats', 'most'):  # right, but for ever
+        if (real(args.get(many)) or 0) > 100:
+            args[many] = 10**400
 
 
 # --- moments
@@ -216,11 +199,8 @@ def atOnce(call):
 
 def inThread(call):
     """Another thread calls, as this one waits."""
-    answers = []
-    thread = threading.Thread(target=lambda: answers.append(atOnce(call)))
-    thread.start()
-    thread.join()
-    return answers[0]
+    with concurrent.futures.ThreadPoolExecutor(1) as other:
+        return other.submit(atOnce, call).result()
 
 
 def insideStep(call):
@@ -279,7 +259,7 @@ def answer(error):
 def main(seed, calls, logName):
     draw = random.Random(int(seed))
     tradeoff_grid._runAll = ensemble_runs._run = lambda *_: None
-    counts = types.SimpleNamespace(done=0, refused=0)
+    counts = [0, 0]
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         fe, table = None, None
@@ -288,18 +268,15 @@ def main(seed, calls, logName):
             if fe is None or number % 10 == 0:
                 fe = scene(moment)
                 table = exampleFiles(fe, folder)
-            call = Call(draw, fe, folder, table)
-            log.write('%d %s: %s\n' % (number, moment, call.text))
+            text, call, mayStep = drawn(draw, fe, folder, table)
+            log.write('%d %s: %s\n' % (number, moment, text))
             log.flush()
             before = state(fe)
-            error = kHow[moment](call.function)
+            error = kHow[moment](call)
             wrong = whatIsWrong(error)
             log.write('    %s\n' % ('ok' if error is None else answer(error)[:200]))
-            if error is None:
-                counts.done += 1
-            else:
-                counts.refused += 1
-            isPaused = moment in ('before', 'between', 'thread') and not call.mayStep
+            counts[error is not None] += 1
+            isPaused = moment in ('before', 'between', 'thread') and not mayStep
             if isPaused and error is not None and not wrong and state(fe) != before:
                 wrong = 'the scene changed'
             if wrong:
@@ -313,7 +290,7 @@ def main(seed, calls, logName):
                     log.write('FOUND %s in the step after\n' % wrong)
             if error is None or not isPaused:
                 fe = None
-        log.write('END %d succeeded, %d refused\n' % (counts.done, counts.refused))
+        log.write('END %d succeeded, %d refused\n' % tuple(counts))
     O.reset()
     os.chdir('/')
 

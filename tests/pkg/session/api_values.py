@@ -84,13 +84,13 @@ def others(groups):
     wrong = [object(), {'x': {1}}, b'\xff', 1j, [[1], [2, 3]]] + [None] * all(one is not None for one in forms)
     wrong += ['much', 'much' * 10**4] * (not any(isinstance(one, (str, pathlib.Path)) for one in forms))
     if isinstance(first, bool):
-        wrong += [2]
+        wrong += [2, 1]
     elif any(isinstance(one, np.uint8) for one in forms):
         wrong += [1.5, True, -1, 10**5000]
     elif isinstance(first, (int, float)):
-        wrong += [math.nan] + [True] * (len(groups) == 1)
+        wrong += [math.nan, 10**400] + [True] * (len(groups) == 1)
     elif isinstance(first, tuple) and len(first) == 2:
-        wrong += [1, (1, 2, 3), (1, math.nan)]
+        wrong += [1, (1, 2, 3), (1, math.nan), (10**400, 0)]
     return wrong
 
 
@@ -265,17 +265,6 @@ class Wordy:
         return 'a line\nand another ' * 1000
 
 
-def numbers():
-    return [0, 1, 2, 3, -1, 7, 2**31 - 1, 2**31, -2**31 - 1, 2**63, 10**30, -10**30, 10**400, -10**400, 0., -0., .5,
-            1., 2.5, -1., 1e-320, 1e-300, 1e-12, 1e12, 1e100, 1e160, 1e300, -1e300, math.nan, math.inf, -math.inf,
-            True, False, 1j, decimal.Decimal('0.5'), fractions.Fraction(1, 2), fractions.Fraction(10**400, 3)]
-
-
-def texts():
-    return ['', 'm', 'x', 'none', 'fine', 'xy', 'mises', 'fragment', 'é', '\ud800', 'a\0b', 'x' * 5000,
-            'line\nline', '/nowhere/x.csv', '/nowhere/x', b'', b'\xff\xfe', bytearray(b'm'), '%s', '{}']
-
-
 def numpys(random):
     kinds = ['bool', 'int8', 'uint8', 'int16', 'int32', 'uint32', 'int64', 'uint64', 'float16', 'float32',
              'float64', 'longdouble', 'complex64', 'complex128', 'U3', 'S3', 'O', 'datetime64[s]',
@@ -292,66 +281,55 @@ def numpys(random):
     return array[()] if shape == () and random.random() < .7 else array
 
 
-def collections(random):
+def mistakes(random, fe):
+    """{kind: values}"""
     deep = []
     for _ in range(2000):
         deep = [deep]
     square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    return [[], (), {}, set(), [[]], [None], [1], [1, 2], (1, 2), (1, 2, 3), (math.nan, 1), ('a', 'b'),
+    scene = w.Omega()
+    return dict(
+        numbers=[
+            0, 1, 2, 3, -1, 7, 2**31 - 1, 2**31, -2**31 - 1, 2**63, 10**30, -10**30, 10**400, -10**400, 0., -0., .5,
+            1., 2.5, -1., 1e-320, 1e-300, 1e-12, 1e12, 1e100, 1e160, 1e300, -1e300, math.nan, math.inf, -math.inf,
+            True, False, 1j, decimal.Decimal('0.5'), fractions.Fraction(1, 2), fractions.Fraction(10**400, 3)],
+        texts=[
+            '', 'm', 'x', 'none', 'fine', 'xy', 'mises', 'fragment', 'é', '\ud800', 'a\0b', 'x' * 5000,
+            'line\nline', '/nowhere/x.csv', '/nowhere/x', b'', b'\xff\xfe', bytearray(b'm'), '%s', '{}'],
+        collections=[
+            [], (), {}, set(), [[]], [None], [1], [1, 2], (1, 2), (1, 2, 3), (math.nan, 1), ('a', 'b'),
             [(0, 0), (1, 0)], square, square[::-1], square * 2, [(0, 0), (1, 1), (1, 0), (0, 1)],
             [(x * 1e300, y * 1e300) for x, y in square], [(x + 1e17, y) for x, y in square],
             [(x * 1e-300, y * 1e-300) for x, y in square], [(0, 0), (1, math.inf), (1, 1)],
             [(0, 0), (1, 0), (1,)], [square], {'passes': [1, 2]}, {'passes': 3}, {'a': []}, {1: 2}, deep,
             range(3), iter(square), (p for p in square), (raising() for _ in range(3)), [True] * 4, [True],
             [0, 1, 2], [(0, 1, 2)], [[0, 1, 2], [0, 1]], [-1], [10**30], [1.5], ['a'], frozenset([1]),
-            memoryview(b'abc'), 'abcd', {'x': 1}.items(), list(range(1000)), ((0, 0), (1, 1))]
-
-
-def triples():
-    return [(0, 0, 0), (1, 0, 0), (.5, 1, 0), (math.nan, 0, 0), (0, math.inf, 0), (0, 0, 1), (1e300, -1e300, 0),
+            memoryview(b'abc'), 'abcd', {'x': 1}.items(), list(range(1000)), ((0, 0), (1, 1))],
+        triples=[
+            (0, 0, 0), (1, 0, 0), (.5, 1, 0), (math.nan, 0, 0), (0, math.inf, 0), (0, 0, 1), (1e300, -1e300, 0),
             (1e160, 0, 0), (1e-320, 0, 0), (1, 2), (1, 2, 3, 4), ('a', 0, 0), (None, 0, 0), (10**400, 0, 0),
-            np.zeros(3), np.ones(3, dtype=int), np.zeros((3, 1)), Vector3(1, 1, 1), {1, 2, 3}, (1j, 0, 0)]
-
-
-def callables():
-    return [raising, lambda: None, lambda x, y: True, lambda x, y: None, lambda x, y: 'x', lambda x, y: (x, y),
+            np.zeros(3), np.ones(3, dtype=int), np.zeros((3, 1)), Vector3(1, 1, 1), {1, 2, 3}, (1j, 0, 0)],
+        callables=[
+            raising, lambda: None, lambda x, y: True, lambda x, y: None, lambda x, y: 'x', lambda x, y: (x, y),
             lambda x, y: (math.nan, 0), lambda x, y: (1e300, 1e300), lambda x, y: np.bool_(x > .5),
-            lambda x, y: 3, lambda *a: (), lambda x, y: Hostile(), int, print, len, Hostile]
-
-
-def objects(fe):
-    scene = w.Omega()
-    return [None, object(), Ellipsis, NotImplemented, type, Hostile(), Unprintable(), Wordy(), fe, fe.dict(),
+            lambda x, y: 3, lambda *a: (), lambda x, y: Hostile(), int, print, len, Hostile],
+        objects=[
+            None, object(), Ellipsis, NotImplemented, type, Hostile(), Unprintable(), Wordy(), fe, fe.dict(),
             w.FESolver(), w.FEMat(), w.FrictMat(), w.Body(), w.Sphere(), w.LebesgueCollider(), w.Bo1_Sphere_Aabb(),
-            w.NewtonIntegrator(), scene, scene.bodies, scene.materials, datetime.datetime(2000, 1, 1), math, open]
+            w.NewtonIntegrator(), scene, scene.bodies, scene.materials, datetime.datetime(2000, 1, 1), math, open],
+        numpys=[numpys(random)])
+
+
+def anything(random, fe, kinds=('numbers', 'numbers', 'numbers', 'texts', 'texts', 'numpys', 'numpys', 'collections', 'collections',
+                                'callables', 'objects', 'objects')):
+    """Some value, drawn by `random`."""
+    return random.choice(mistakes(random, fe)[random.choice(kinds)])
 
 
 def alike(random, fe, right):
     """A value of the kind of `right`, which is mostly the more interesting one."""
-    if isinstance(right, (bool, int, float)):
-        return random.choice(numbers())
-    if isinstance(right, str):
-        return random.choice(texts())
-    if isinstance(right, (list, tuple, np.ndarray)):
-        return random.choice(collections(random)) if random.random() < .7 else numpys(random)
-    if isinstance(right, Vector3):
-        return random.choice(triples())
-    if callable(right):
-        return random.choice(callables())
-    return anything(random, fe)
-
-
-def anything(random, fe):
-    """Some value, drawn by `random`."""
-    kind = random.randrange(12)
-    if kind < 3:
-        return random.choice(numbers())
-    if kind < 5:
-        return random.choice(texts())
-    if kind < 7:
-        return numpys(random)
-    if kind < 9:
-        return random.choice(collections(random))
-    if kind < 10:
-        return random.choice(callables())
-    return random.choice(objects(fe))
+    for types, kinds in (((bool, int, float), ['numbers']), (str, ['texts']), (Vector3, ['triples']),
+                         ((list, tuple, np.ndarray), ['collections', 'collections', 'numpys'])):
+        if isinstance(right, types):
+            return anything(random, fe, kinds)
+    return anything(random, fe, *[['callables']] * callable(right))

@@ -150,10 +150,6 @@ kLong = [np.zeros((1000, 1000)), list(range(10**5)), 'x' * 10**5, 10**5000, -10*
 def test_valuesAreShownInShort(value):
     text = arguments.shown(value)
     assert 0 < len(text) <= arguments.LONGEST and text.isprintable()
-    for call in (lambda: yadefrag.runSteps(value), lambda: w.FESolver(passes=value), lambda: w.FESolver(gravity=value)):
-        with pytest.raises((ValueError, TypeError)) as error:
-            call()
-        assert len(str(error.value)) <= 300
 
 
 def test_numbersOfNumPyAndABrokenReprAreShown():
@@ -286,20 +282,25 @@ def test_allElseIsCopiedWhole(make, thing):
 
 # --- memory
 
+def requireFreed(make):
+    """All that `make` gives weak references to, when the scene is empty."""
+    O.reset()
+    items = make()
+    assert all(item() for item in items)
+    O.reset()
+    gc.collect()
+    assert [item() for item in items] == [None] * len(items)
+
+
 @pytest.mark.parametrize('collider', [None, 'LebesgueCollider'])
 def test_resetFreesTheSolver(collider):
     def made():
-        solver = impact(collider)
+        impact(collider)
         steps(3)
-        O.engines = list(O.engines)
         O.engines = O.engines[:1] + [w.PyRunner(label='named')] + O.engines[1:]
         steps(1)
-        return [weakref.ref(engine) for engine in O.engines]
-    engines = made()
-    assert all(engine() for engine in engines)
-    O.reset()
-    gc.collect()
-    assert [engine() for engine in engines if not isinstance(engine(), w.PyRunner)] == [None] * (len(engines) - 1)
+        return [weakref.ref(engine) for engine in O.engines if not isinstance(engine, w.PyRunner)]
+    requireFreed(made)
 
 
 def test_whatWasInAListIsFreed():
@@ -312,9 +313,4 @@ def test_whatWasInAListIsFreed():
         O.bodies.append(tuple(listed[1:2]))
         O.engines = [w.InsertionSortCollider(functors[0]), w.InteractionLoop(*functors[1:])]
         return [weakref.ref(item) for item in listed + O.engines]
-    O.reset()
-    items = made()
-    assert all(item() for item in items)
-    O.reset()
-    gc.collect()
-    assert [item() for item in items] == [None] * len(items)
+    requireFreed(made)

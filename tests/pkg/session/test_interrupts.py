@@ -8,6 +8,7 @@ import time
 
 import pytest
 
+import fe_scene
 import yadefrag
 from yade import utils, wrapper as w
 from yadefrag import runSteps
@@ -15,19 +16,12 @@ from yadefrag import runSteps
 O = builtins.O
 
 
-def made(size):
-    O.reset()
-    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3, label='m'))
-    solver = w.FESolver()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=size, material='m', velocity=lambda x, y: (x, y))
-    O.engines = [solver]
-    O.dt = .5 * solver.criticalTimeStep()
-    return solver
-
-
 @pytest.fixture
 def fe():
-    return made(.05)
+    solver = fe_scene.fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.05, material='m', velocity=lambda x, y: (x, y))
+    fe_scene.ready(solver, .5)
+    return solver
 
 
 def waiting():

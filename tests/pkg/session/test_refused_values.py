@@ -170,14 +170,6 @@ def test_aSolverOfAnotherScene(isLoaded):
     assert isLoaded or added(w.FESolver()) == 0
 
 
-def test_filesThatCannotBeOpenedAreNamed():
-    made = impact()
-    for call in (lambda: yadefrag.readPolygon('/nowhere/x'), lambda: yadefrag.plotMesh(made, file='/nowhere/x.png'),
-                 lambda: yadefrag.exportVTK(made, '/nowhere/x.vtu')):
-        with pytest.raises(FileNotFoundError, match='/nowhere/x'):
-            call()
-
-
 def test_withoutBodies(folder):
     made = w.FESolver()
     O.engines, O.dt = [made], 1

@@ -218,6 +218,10 @@ def test_savedAndLoaded(name, folder):
     O.loadTmp()
     O.run(steps, True)
     assert differences(wanted, state()) == []
+    if name != 'rigid':  # a scene that was loaded may change; without its only body, rigid bodies get velocities that are no numbers
+        solverOfScene().removeBody(0)
+        O.run(10, True)
+        assert math.isfinite(solverOfScene().energy['total'])
 
 
 @pytest.mark.parametrize('name', kNames)
@@ -257,13 +261,3 @@ def test_colliders(name):
         assert not others or solverOfScene().numSearches < 2 * steps and not list(O.interactions)
         # Where nothing could meet the bounds, no search is requested.
         assert one is not behind or O.engines[-1].numAction == 1
-
-
-def test_loadedScenesMayChange(folder):
-    """A body of a scene that was loaded can be removed."""
-    O.run(start('elastic disc and sphere'), True)
-    O.save(folder + '/scene.yade')
-    O.load(folder + '/scene.yade')
-    solverOfScene().removeBody(0)
-    O.run(10, True)
-    assert math.isfinite(solverOfScene().energy['total'])
