@@ -242,7 +242,8 @@ void FESolver::report(std::vector<std::string> sentences) {
 void FESolver::followRigid(bool enginesAreNew) {
   bool areNew = false;
   try {
-    areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, integrator(true));
+    const bool wanted = rigidBodies && bodies_.anyBody();
+    areNew = rigid_.follow(*scene, world_, bodies_, wanted, integrator(true));
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
                                 " FESolver(rigidBodies=False) disables contact with it.");
