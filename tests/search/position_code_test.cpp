@@ -39,6 +39,7 @@ TYPED_TEST(PositionCodeLaws, RoundTrip) {
   }
 }
 
+/// Which numbers the quarters as figure 5 does.
 TYPED_TEST(PositionCodeLaws, EncodesBitByBit) {
   using Code = typename TestFixture::Code;
   constexpr int dim = TestFixture::kDim;
@@ -48,14 +49,6 @@ TYPED_TEST(PositionCodeLaws, EncodesBitByBit) {
       cell[axis] = std::uint32_t{1} << bit;
       EXPECT_EQ(Code::encode(cell), std::uint64_t{1} << (dim * bit + dim - 1 - axis));
     }
-}
-
-TEST(PositionCode, QuartersAreNumberedAsInFigure5) {
-  using Code = PositionCode<2>;
-  EXPECT_EQ(Code::encode({0, 0}), 0b00U);  // bottom left
-  EXPECT_EQ(Code::encode({0, 1}), 0b01U);  // top left
-  EXPECT_EQ(Code::encode({1, 0}), 0b10U);  // bottom right
-  EXPECT_EQ(Code::encode({1, 1}), 0b11U);  // top right
 }
 
 TYPED_TEST(PositionCodeLaws, MonotoneInEveryCoordinate) {
