@@ -133,13 +133,6 @@ TEST(JointMesh, SizesByPlace) {
   }
 }
 
-TEST(JointMesh, WithoutJointsTheMeshIsAsItWas) {
-  const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
-  EXPECT_EQ(triangulate(plate, .1, kScatteredOf, INFINITY, JointLines{}).nodes,
-            triangulate(plate, .1, kScatteredOf).nodes);
-  EXPECT_TRUE(triangulate(plate, .1).joints.empty());
-}
-
 TEST(JointMesh, ImpossibleArgumentsAreRefused) {
   const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
   const auto expectRefused = [&](const std::array<Vec2, 2>& joint, const std::string& part) {
@@ -225,12 +218,14 @@ TEST(SizeField, TrianglesFollowIt) {
     }
 }
 
-TEST(SizeField, ConstantFieldGivesTheMeshOfOneSize) {
+TEST(SizeField, ConstantFieldAndNoJointsGiveTheMeshOfOneSize) {
   const Polygon square{box({0, 0}, {1, 1}), {circle({.5, .5}, .2, 40)}};
   const TriangleMesh one = triangulate(square, .05);
   const TriangleMesh field = triangulate(square, sampled([](Vec2) { return .05; }, 8));
   EXPECT_EQ(one.triangles.size(), field.triangles.size());
   EXPECT_EQ(one.loops[0].size(), field.loops[0].size());
+  EXPECT_EQ(triangulate(square, .05, {}, INFINITY, JointLines{}).nodes, one.nodes);
+  EXPECT_TRUE(one.joints.empty());
 }
 
 TEST(SizeField, MemoryIsThatOfTheSizesThere) {

@@ -1,10 +1,10 @@
-// Structured meshes. The matrices and masses of assembled triangles.
+// Structured meshes, and what appendBody refuses. Masses: checkFans of fracture/random_cracks.hpp;
+// matrices: elements/forces_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "core/errors.hpp"
@@ -17,8 +17,6 @@
 
 namespace yadefrag::test {
 namespace {
-
-using namespace test;
 
 std::vector<double> nodalAreas(const TriangleMesh& mesh) {
   std::vector<double> areas(mesh.nodes.size());
@@ -108,35 +106,6 @@ Component glass() {
   c.material = {.young = 70e9, .poisson = .2, .density = 2500};
   c.thickness = .01;
   return c;
-}
-
-Model threeBodies() {
-  Model model;
-  for (int i = 0; i < 3; ++i)
-    appendBody(model, structuredRectangle({2. * i, 0}, {2. * i + 1, 1}, 2 + i, 3), glass());
-  return model;
-}
-
-TEST(Assembly, MassIsDensityTimesAreaTimesThickness) {
-  const Model model = threeBodies();
-  EXPECT_NEAR(std::accumulate(model.nodes.mass.begin(), model.nodes.mass.end(), 0.), 3 * 25, 1e-9);
-  Model again = model;
-  lumpMasses(again);
-  EXPECT_EQ(again.nodes.mass, model.nodes.mass);
-}
-
-TEST(Assembly, InverseEdgesUndoTheEdges) {
-  const Model model = threeBodies();
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    const auto& [a, b, c] = model.triangles.nodes[t];
-    const auto& i = model.triangles.inverseEdges[t];
-    const Vec2 d1 = model.nodes.position[b.value] - model.nodes.position[a.value];
-    const Vec2 d2 = model.nodes.position[c.value] - model.nodes.position[a.value];
-    EXPECT_NEAR(d1.x * i[0] + d2.x * i[2], 1, 1e-14);
-    EXPECT_NEAR(d1.x * i[1] + d2.x * i[3], 0, 1e-14);
-    EXPECT_NEAR(d1.y * i[0] + d2.y * i[2], 0, 1e-14);
-    EXPECT_NEAR(d1.y * i[1] + d2.y * i[3], 1, 1e-14);
-  }
 }
 
 TEST(Assembly, ATriangleWithoutAreaIsRefusedBeforeAnythingChanges) {
