@@ -122,9 +122,8 @@ TEST(Relink, ListedWithoutAChangeNothingHappens) {
 TEST(Relink, ANodeThatLeavesTheBoundaryHasNoSegment) {
   ContactSurfaces s = oneLoop({0, 1, 1, 0});
   // Node 1's two sides go on at a new node 7.
-  const SurfaceSide sides[] = {
-      {SegmentId(std::size_t{0}), NodeId(std::size_t{0}), NodeId(std::size_t{7}), kBody},
-      {SegmentId(std::size_t{1}), NodeId(std::size_t{7}), NodeId(std::size_t{2}), kBody}};
+  const SurfaceSide sides[] = {{segment(0), node(0), node(7), kBody},
+                               {segment(1), node(7), node(2), kBody}};
   relink(s, sides);
   checkLinks(s);
   checkPiecesJoin(s);
