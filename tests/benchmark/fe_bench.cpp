@@ -7,12 +7,13 @@
 // not measured; of blocks, which touch from the start or stay apart, all of it is.
 
 #include <benchmark/benchmark.h>
-#include <cmath>
-#include <functional>
 
-#include "benchmark/fe_scenes.hpp"
-#include "mesh/assembly.hpp"
-#include "meshing/triangulate.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "elements/blocks.hpp"
 #include "step/bodies.hpp"
 #include "time/critical_time_step.hpp"
 #include "time/explicit_dynamics.hpp"
@@ -23,10 +24,7 @@ namespace {
 /// A square block of about so many triangles that spins.
 Model spinningBlock(std::int64_t elements) {
   const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(elements) / 2)));
-  Component steel;
-  steel.material = {.young = 210e9, .poisson = .3, .density = 7800};
-  Model model;
-  appendBody(model, structuredRectangle({-.5, -.5}, {.5, .5}, side, side), steel);
+  Model model = modelOf(structuredRectangle({-.5, -.5}, {.5, .5}, side, side), kSteel);
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
     model.nodes.velocity[n] = -100 * rightOf(model.nodes.position[n]);
   return model;
@@ -125,6 +123,100 @@ HELD_STEP(johnsonCook);
 HELD_STEP(frictional);
 BENCHMARK(baselineStep)->Name("step without AVX")->Args({100000, 1})->Apply(inMs);
 
+// --- Elastic bodies in contact: the scenes of the paper's figures 11 and 12 and an impact. Lengths
+// in mm of steel.
+
+constexpr double kSpeed = 20;  // m/s
+
+BodySpec steelBody(const TriangleMesh& mesh, Vec2 velocity) {
+  BodySpec spec = test::moving(mesh, test::steel(), velocity);
+  spec.selfContact = false;
+  return spec;
+}
+
+Vec2 someDirection(std::mt19937_64& random) {
+  const double angle = std::uniform_real_distribution<double>(0, 2 * std::numbers::pi)(random);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// With edges of about this size.
+test::Loop circleOf(Vec2 centre, double radius, double size) {
+  return test::circle(centre, radius,
+                      static_cast<int>(std::lround(2 * std::numbers::pi * radius / size)));
+}
+
+/// Fig. 12: concentric rings, 1 mm thick, 0.1 mm apart, two and a half triangles thick; each starts
+/// in a direction of its own.
+void addRings(World& world, int count, bool smooth) {
+  constexpr double kInnermost = 4e-3, kThickness = 1e-3, kGap = .1e-3, kSize = .4e-3;
+  std::mt19937_64 random(12);
+  for (int i = 0; i < count; ++i) {
+    const double inner = kInnermost + i * (kThickness + kGap);
+    Polygon ring;
+    ring.outline = circleOf({}, inner + kThickness, kSize);
+    ring.holes.push_back(circleOf({}, inner, kSize));
+    const TriangleMesh mesh = triangulate(ring, kSize);
+    BodySpec spec = steelBody(mesh, kSpeed * someDirection(random));
+    if (smooth) test::smoothAll(spec, mesh);
+    world.addBody(mesh, spec);
+  }
+}
+
+/// Fig. 11: n × n squares of 1 mm and 8 × 8 × 2 triangles in a frame that is held, 0.1 mm apart; a
+/// quarter of them moves.
+void addSquares(World& world, int n) {
+  constexpr double kEdge = 1e-3, kGap = .1e-3, kPitch = kEdge + kGap, kWall = .5e-3;
+  constexpr int kCells = 8;
+  std::mt19937_64 random(11);
+  std::vector<Vec2> velocities(static_cast<std::size_t>(n * n));
+  for (std::size_t i = 0; i < velocities.size() / 4; ++i)
+    velocities[i] = kSpeed * someDirection(random);
+  std::shuffle(velocities.begin(), velocities.end(), random);
+  for (int k = 0; k < n * n; ++k) {
+    const int column = k % n, row = k / n;
+    const Vec2 low{kGap + kPitch * column, kGap + kPitch * row};
+    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{kEdge, kEdge}, kCells, kCells);
+    world.addBody(mesh, steelBody(mesh, velocities[static_cast<std::size_t>(k)]));
+  }
+  const double inside = kPitch * n + kGap, far = inside + kWall;
+  const Polygon frame{test::box({-kWall, -kWall}, {far, far}),
+                      {test::box({0, 0}, {inside, inside})}};
+  const TriangleMesh mesh = triangulate(frame, .3e-3);
+  BodySpec spec = steelBody(mesh, {});
+  spec.held.assign(mesh.nodes.size(), kHeldXY);
+  world.addBody(mesh, spec);
+}
+
+struct Impact {
+  double size;                                       ///< m, of the triangles' edges
+  double radius = 5e-3, wide = 40e-3, high = 20e-3;  ///< m, of the cylinder; of the block
+  double speed = kSpeed;                             ///< m/s
+  bool smooth = false;                               ///< the cylinder
+  double fractureEnergy = NAN;                       ///< J/m², if the block is of a ceramic
+};
+
+/// A cylinder falls on a block whose lower side is held.
+void addImpact(World& world, const Impact& impact) {
+  const TriangleMesh block = triangulate(
+      test::rectangle({-impact.wide / 2, -impact.high}, {impact.wide / 2, 0}), impact.size);
+  BodySpec spec = steelBody(block, {});
+  if (!std::isnan(impact.fractureEnergy)) {
+    spec.material = {370e9, .22, 3900, false};
+    spec.brittle.tensileStrength = 300e6;
+    spec.brittle.fractureEnergy = impact.fractureEnergy;
+    spec.brittle.strengthScatter = .1;
+    spec.brittle.seed = 1;
+    spec.friction = std::tan(.3);
+  }
+  test::hold(spec, block, kHeldXY, [&](Vec2 x) { return x.y < -impact.high + 1e-9; });
+  world.addBody(block, spec);
+  const TriangleMesh cylinder = triangulate(
+      {circleOf({0, impact.radius * 1.001}, impact.radius, impact.size), {}}, impact.size);
+  BodySpec steel = steelBody(cylinder, {0, -impact.speed});
+  if (impact.smooth) test::smoothAll(steel, cylinder);
+  world.addBody(cylinder, steel);
+}
+
 struct Scene {
   const char* name;
   void (*add)(World& world, int size);
@@ -132,14 +224,12 @@ struct Scene {
 };
 
 const Scene kScenes[] = {
-    {"rings", [](World& world, int size) { fescenes::addRings(world, size, false); }},
-    {"smooth rings", [](World& world, int size) { fescenes::addRings(world, size, true); }},
-    {"squares", [](World& world, int size) { fescenes::addSquares(world, size); }},
-    {"impact", [](World& world, int size) { fescenes::addImpact(world, {10e-3 / size}); }},
+    {"rings", [](World& world, int size) { addRings(world, size, false); }},
+    {"smooth rings", [](World& world, int size) { addRings(world, size, true); }},
+    {"squares", [](World& world, int size) { addSquares(world, size); }},
+    {"impact", [](World& world, int size) { addImpact(world, {10e-3 / size}); }},
     {"smooth impact",
-     [](World& world, int size) {
-       fescenes::addImpact(world, {.size = 10e-3 / size, .smooth = true});
-     }},
+     [](World& world, int size) { addImpact(world, {.size = 10e-3 / size, .smooth = true}); }},
     {"touching blocks", [](World& world, int size) { test::addBlockWall(world, {size}); }, 0},
     // Joints that gravity does not close in the run.
     {"blocks apart",
@@ -154,10 +244,9 @@ void report(benchmark::State& state, const World& world, std::uint64_t searches,
   const auto steps = static_cast<double>(state.iterations());
   const auto entries = static_cast<double>(world.surfaces.entries());
   const auto triangles = static_cast<double>(world.model.triangles.size());
-  const auto candidates = static_cast<double>(world.contact.candidates.size());
   state.counters["triangles"] = triangles;
   state.counters["entries"] = entries;
-  state.counters["candidates"] = candidates;
+  state.counters["candidates"] = static_cast<double>(world.contact.candidates.size());
   state.counters["rows"] = rows / steps;
   state.counters["searches"] = static_cast<double>(searches);
   state.counters["forces"] = 1e9 * t.forces / steps / triangles;
@@ -219,18 +308,16 @@ constexpr int kSteps = 400, kRubbleBegin = 2000;
 void addBrittleImpact(World& world, double triangles, double fractureEnergy) {
   // An equilateral triangle takes √3/4·size².
   const double high = std::sqrt(triangles * .433 * kSize * kSize / 2);
-  fescenes::addImpact(world, {.size = kSize,
-                              .radius = 2e-3,
-                              .wide = 2 * high,
-                              .high = high,
-                              .speed = 50,
-                              .fractureEnergy = fractureEnergy});
+  addImpact(world, {.size = kSize,
+                    .radius = 2e-3,
+                    .wide = 2 * high,
+                    .high = high,
+                    .speed = 50,
+                    .fractureEnergy = fractureEnergy});
 }
 
-constexpr fescenes::Impact kImpact{
-    .size = 3.05e-4, .speed = 50, .smooth = true, .fractureEnergy = 0};
-constexpr fescenes::Impact kRubble{
-    .size = .96e-4, .speed = 50, .smooth = true, .fractureEnergy = 0};
+constexpr Impact kImpact{.size = 3.05e-4, .speed = 50, .smooth = true, .fractureEnergy = 0};
+constexpr Impact kRubble{.size = .96e-4, .speed = 50, .smooth = true, .fractureEnergy = 0};
 
 void timeSteps(benchmark::State& state, World& world) {
   const double dt = .8 * world.criticalTimeStep();
@@ -260,7 +347,7 @@ void crackSteps(benchmark::State& state, double fractureEnergy) {
 void impactSteps(benchmark::State& state) {
   World world;
   world.threads = static_cast<int>(state.range(1));
-  fescenes::addImpact(world, kImpact);
+  addImpact(world, kImpact);
   timeSteps(state, world);
 }
 
@@ -268,10 +355,9 @@ void impactSteps(benchmark::State& state) {
 void rubbleSteps(benchmark::State& state) {
   static World world;
   if (world.model.nodes.size() == 0) {
-    fescenes::addImpact(world, kRubble);
+    addImpact(world, kRubble);
     world.threads = 2;
-    const double dt = .8 * world.criticalTimeStep();
-    for (int i = 0; i < kRubbleBegin; ++i) world.step(dt);
+    test::stepFor(world, .8, kRubbleBegin);
   }
   world.threads = static_cast<int>(state.range(0));
   world.times = {};

@@ -1,20 +1,17 @@
 #pragma once
-// Surfaces of given points, and needles: bodies of which one point is looked at.
+// Surfaces of given points, and rows of contact.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "contact/candidates.hpp"
 #include "contact/row_sweeps.hpp"
 #include "core/checks.hpp"
-#include "mesh/model.hpp"
+#include "mesh/shapes.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag::test {
@@ -37,74 +34,19 @@ struct SurfaceScene {
     return first;
   }
 
-  /// A thin triangle of length 2 with its tip at the origin, towards `direction`; moved by
-  /// `moveNeedle`. Its first entry is the tip's.
-  EntryId addNeedle(Vec2 direction) {
-    const Vec2 back = (-2 / norm(direction)) * direction, aside = .05 * rightOf(back);
-    return addBody({{0, 0}, back + aside, back - aside});
-  }
-
-  void moveNeedle(EntryId tip, Vec2 to) {
-    const std::uint32_t node = surfaces.slave(tip).node[0].value;
-    const Vec2 by = to - at[node];
-    for (std::uint32_t k = 0; k < 3; ++k) at[node + k] += by;
-  }
-
   [[nodiscard]] PieceGeometry geometry() const { return {surfaces, at}; }
 };
 
 inline EntryId operator+(EntryId entry, std::size_t by) { return EntryId(entry.value + by); }
 
-/// Every slave with every master, but for the two that it is an end of; `selfContact`: also within
-/// a body.
-inline std::vector<SlaveMaster> allPairs(const ContactSurfaces& surfaces, bool selfContact) {
-  std::vector<SlaveMaster> pairs;
-  for (std::size_t s = 0; s < surfaces.entries(); ++s)
-    for (std::size_t m = 0; m < surfaces.entries(); ++m) {
-      if (!selfContact && surfaces.component[s] == surfaces.component[m]) continue;
-      if (s != m && surfaces.prev[s].value != m) pairs.push_back({EntryId(s), EntryId(m)});
-    }
-  return pairs;
-}
-
-/// Those of a slave no farther than `halo` (m) from the master.
-inline std::vector<SlaveMaster> nearPairs(const SurfaceScene& scene, bool selfContact,
-                                          double halo) {
-  std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, selfContact);
-  const PieceGeometry geometry = scene.geometry();
-  std::erase_if(pairs, [&](const SlaveMaster& pair) {
-    const Vec2 point = geometry.slave(pair.slave);
-    const PieceRange range = pieceRange(scene.surfaces.piece[pair.master.value]);
-    const double xi = std::clamp(geometry.foot(pair.master, point).xi, range.begin, range.end);
-    return norm(point - geometry.point(pair.master, xi)) > halo;
-  });
-  return pairs;
-}
-
-/// A star around `centre`: corners at even angles, at random distances.
-inline std::vector<Vec2> star(Random& random, Vec2 centre, double radius, int corners,
-                              double roughness) {
-  std::vector<Vec2> points;
-  points.reserve(static_cast<std::size_t>(corners));
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / corners;
-    const double far = radius * even(random, 1 - roughness, 1);
-    points.push_back(centre + far * Vec2{std::cos(angle), std::sin(angle)});
-  }
-  return points;
-}
-
 /// Which nodes are smooth. 0: none, 1: all, 2: some.
+inline constexpr int kSmoothKinds[] = {0, 1, 2};
 inline std::vector<std::uint8_t> smoothFlags(Random& random, std::size_t count, int kind) {
   std::vector<std::uint8_t> smooth(count);
   for (std::uint8_t& flag : smooth)
     flag = static_cast<std::uint8_t>(kind == 2 ? random() % 2 : static_cast<std::uint64_t>(kind));
   return smooth;
 }
-inline std::string smoothName(const testing::TestParamInfo<int>& info) {
-  return info.param == 0 ? "Straight" : info.param == 1 ? "Smooth" : "Mixed";
-}
-
 /// Nodes of mass 1, free.
 inline Nodes plainNodes(std::size_t count) {
   Nodes nodes;

@@ -25,6 +25,11 @@ inline void expectSentence(const std::string& text) {
   EXPECT_TRUE(text.ends_with('.')) << text;
 }
 
+/// If not, the message shows both.
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  return testing::IsSubstring("part", "text", part, text);
+}
+
 /// "" if `call` comes to its end, else the sentence of the error of this type that it throws.
 template <class Error, class Call>
 std::string saidBy(Call call) {

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <new>
 #include <random>
 #include <stdexcept>
@@ -56,29 +55,24 @@ Results byComponents(const Four& a, const Four& b) {
   return results;
 }
 
-class FourLanesOf : public testing::TestWithParam<InstructionSet> {};
-
-TEST_P(FourLanesOf, HaveTheBitsOfComponents) {
-  if (GetParam() == InstructionSet::kAvx2 && bestInstructionSet() != InstructionSet::kAvx2) {
-    GTEST_SKIP() << "no AVX2";
-  }
+TEST(FourLanes, HaveTheBitsOfComponents) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> anyValue(0, 3);
   for (int i = 0; i < 2000; ++i) {
     Four a, b;
     for (double& value : a) value = anyValue(random);
     for (double& value : b) value = anyValue(random);
-    const Results lanes = byLanes(GetParam(), a, b), components = byComponents(a, b);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.cross[k], components.cross[k]);
-    EXPECT_EQ(lanes.product, components.product);
-    EXPECT_EQ(lanes.dot, components.dot);
-    EXPECT_EQ(lanes.norm, components.norm);
-    EXPECT_EQ(lanes.squaredNormOfFour, components.squaredNormOfFour);
+    const Results components = byComponents(a, b);
+    for (const InstructionSet set : {InstructionSet::kBaseline, bestInstructionSet()}) {
+      const Results lanes = byLanes(set, a, b);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(lanes.cross[k], components.cross[k]);
+      EXPECT_EQ(lanes.product, components.product);
+      EXPECT_EQ(lanes.dot, components.dot);
+      EXPECT_EQ(lanes.norm, components.norm);
+      EXPECT_EQ(lanes.squaredNormOfFour, components.squaredNormOfFour);
+    }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Sets, FourLanesOf,
-                         testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2));
 
 TEST(FourLanes, ThreeLeavesTheFourthValue) {
   Four stored = {1, 2, 3, 4};
@@ -95,51 +89,46 @@ double errorOf(double found, long double right) {
   return static_cast<double>(std::abs((static_cast<long double>(found) - right) / right));
 }
 
-TEST(LaneMath, LogarithmOfAllNormalNumbers) {
+/// The largest one of many draws.
+template <class Draw>
+double worstOf(Draw errorOfDraw) {
   Random random(1);
-  double most = 0, mostNearOne = 0;
-  for (int i = 0; i < kCount; ++i) {
-    const double exponent = even(random, -1022, 1023), mantissa = even(random, 1, 2);
-    const double x = std::ldexp(mantissa, static_cast<int>(exponent));
-    most = std::max(most, errorOf(logOf(x), std::log(static_cast<long double>(x))));
-    const double near = 1 + std::exp(even(random, -30, -1)) * (i % 2 == 0 ? 1 : -.5);
-    mostNearOne =
-        std::max(mostNearOne, errorOf(logOf(near), std::log(static_cast<long double>(near))));
-  }
-  EXPECT_EQ(logOf(1), 0);
-  EXPECT_LT(most, 1e-15);
-  EXPECT_LT(mostNearOne, 1e-15);
-}
-
-TEST(LaneMath, ExponentialFromTheLeastToTheLargestNumber) {
-  Random random(2);
-  double most = 0, mostTiny = 0;
-  for (int i = 0; i < kCount; ++i) {
-    const double x = even(random, -700, 700), tiny = even(random, -.02, .02);
-    most = std::max(most, errorOf(expOf(x), std::exp(static_cast<long double>(x))));
-    mostTiny =
-        std::max(mostTiny, errorOf(expOfTiny(tiny), std::exp(static_cast<long double>(tiny))));
-  }
-  EXPECT_EQ(expOf(0), 1);
-  EXPECT_LT(most, 1e-15);
-  EXPECT_LT(mostTiny, 1e-15);
-}
-
-// The error of y log x is one of the power: 10⁻¹⁵ times its size.
-TEST(LaneMath, Powers) {
-  Random random(3);
   double most = 0;
-  for (int i = 0; i < kCount; ++i) {
-    const double x = std::exp(even(random, -30, 30)), y = even(random, .01, 3);
-    const long double right = std::pow(static_cast<long double>(x), static_cast<long double>(y));
-    const double size = std::abs(y * std::log(x));
-    most = std::max(most, errorOf(powerOf(x, y), right) / (1 + size));
-  }
-  EXPECT_LT(most, 1e-15);
+  for (int i = 0; i < kCount; ++i) most = std::max(most, errorOfDraw(random));
+  return most;
+}
+
+TEST(LaneMath, HasTheRoundingOfTheCLibrary) {
+  using Long = long double;
+  constexpr double kMost = 1e-15;
+  const auto logarithm = [](double x) { return errorOf(logOf(x), std::log(static_cast<Long>(x))); };
+  EXPECT_LT(worstOf([&](Random& random) {
+              const int exponent = static_cast<int>(even(random, -1022, 1023));
+              return logarithm(std::ldexp(even(random, 1, 2), exponent));
+            }),
+            kMost);
+  EXPECT_LT(worstOf([&](Random& random) {
+              const double near = std::exp(even(random, -30, -1));
+              return std::max(logarithm(1 + near), logarithm(1 - near / 2));
+            }),
+            kMost);
+  EXPECT_LT(worstOf([](Random& random) {
+              const double x = even(random, -700, 700), tiny = even(random, -.02, .02);
+              return std::max(errorOf(expOf(x), std::exp(static_cast<Long>(x))),
+                              errorOf(expOfTiny(tiny), std::exp(static_cast<Long>(tiny))));
+            }),
+            kMost);
+  // The error of y log x is one of the power: 10⁻¹⁵ times its size.
+  EXPECT_LT(worstOf([](Random& random) {
+              const double x = std::exp(even(random, -30, 30)), y = even(random, .01, 3);
+              const Long right = std::pow(static_cast<Long>(x), static_cast<Long>(y));
+              return errorOf(powerOf(x, y), right) / (1 + std::abs(y * std::log(x)));
+            }),
+            kMost);
+  EXPECT_EQ(logOf(1), 0);
+  EXPECT_EQ(expOf(0), 1);
   EXPECT_EQ(powerOf(0, .3), 0);
 }
-
-constexpr std::size_t kManyItems = 8 * tolerance::kMinItemsPerThread;
 
 TEST(LaneMath, HalfPowersHaveTheBitsOfPow) {
   std::mt19937_64 random(5);
@@ -162,15 +151,24 @@ TEST(LaneMath, HalfPowersHaveTheBitsOfPow) {
   EXPECT_TRUE(std::isnan(halfPowersOf(NAN).root) && std::isnan(halfPowersOf(NAN).threeHalves));
 }
 
-TEST(Parallel, PartsCoverTheRange) {
+constexpr std::size_t kManyItems = 8 * tolerance::kMinItemsPerThread;
+
+/// Each item is done once. Memory may run out in any thread.
+TEST(Parallel, PartsCoverTheRangeAndErrorsReachTheCaller) {
   for (const int threads : {1, 2, 3, 8}) {
-    std::vector<int> seen(kManyItems);
+    SCOPED_TRACE(threads);
+    std::vector<int> seen(kManyItems), done(1000);
     const int parts =
         forEachPart(kManyItems, threads, [&](std::size_t begin, std::size_t end, int) {
           for (std::size_t i = begin; i < end; ++i) ++seen[i];
         });
     EXPECT_EQ(parts, threads);
     EXPECT_EQ(seen, std::vector<int>(kManyItems, 1));
+    forEachItem(done.size(), kManyItems, threads, [&](std::size_t item) { ++done[item]; });
+    EXPECT_EQ(done, std::vector<int>(1000, 1));
+    const auto fail = [](auto...) { throw std::bad_alloc(); };
+    EXPECT_THROW(forEachPart(kManyItems, threads, fail), std::bad_alloc);
+    EXPECT_THROW(forEachItem(1000, kManyItems, threads, fail), std::bad_alloc);
   }
 }
 
@@ -181,26 +179,6 @@ TEST(Parallel, FewItemsRunOnThreadsIfTestsWantIt) {
     EXPECT_EQ(partsOfTen(), 3);
   }
   EXPECT_EQ(partsOfTen(), 1);
-}
-
-TEST(Parallel, EachItemIsDoneOnce) {
-  for (const int threads : {1, 2, 3, 8}) {
-    std::vector<int> seen(1000);
-    forEachItem(seen.size(), kManyItems, threads, [&](std::size_t item) { ++seen[item]; });
-    EXPECT_EQ(seen, std::vector<int>(1000, 1));
-    EXPECT_THROW(
-        forEachItem(1000, kManyItems, threads, [](std::size_t) { throw std::bad_alloc(); }),
-        std::bad_alloc);
-  }
-}
-
-// Memory may run out in any thread.
-TEST(Parallel, ErrorsReachTheCaller) {
-  for (const int threads : {1, 2, 3, 8}) {
-    SCOPED_TRACE(threads);
-    const auto fail = [](std::size_t, std::size_t, int) { throw std::bad_alloc(); };
-    EXPECT_THROW(forEachPart(kManyItems, threads, fail), std::bad_alloc);
-  }
 }
 
 TEST(Parallel, TheFirstPartsErrorIsThrownAfterAllHaveEnded) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <random>
 #include <span>
 #include <utility>
@@ -117,6 +116,13 @@ inline double trueCriticalStep(const Model& model) {
     omega2 = energy / mass;
   }
   return 2 / std::sqrt(omega2);
+}
+
+/// The critical step is at most that of the fastest mode, and at least that over `sharpness`.
+inline void expectBound(const Model& model, double sharpness) {
+  const double bound = criticalTimeStep(model), truth = trueCriticalStep(model);
+  EXPECT_LE(bound, truth * 1.0001);
+  EXPECT_GE(bound, truth / sharpness);
 }
 
 /// Moves all nodes by up to `most` (m); forces are then the slopes of the energy, by differences of

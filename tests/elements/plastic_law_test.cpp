@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "core/errors.hpp"
@@ -356,18 +355,6 @@ TEST(PlasticFlow, RotationsAreExact) {
     }
     EXPECT_LT(difference, 1e-10 * most);
   }
-}
-
-TEST(PlasticFlow, NoStateWithoutMaterialsThatYield) {
-  EXPECT_FALSE(square().triangles.plastic.isUsed());
-  Model model = square();
-  Component c;
-  c.material = kSteel, c.plastic.yieldStress = 1e8;
-  const ComponentId id = appendBody(model, structuredRectangle({.02, 0}, {.03, .01}, 2, 2), c);
-  EXPECT_TRUE(model.triangles.plastic.isUsed());
-  EXPECT_TRUE(haveLength(model.triangles.columns(), model.triangles.size()));
-  removeBody(model, id);
-  EXPECT_FALSE(model.triangles.plastic.isUsed());
 }
 
 }  // namespace

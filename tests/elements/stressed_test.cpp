@@ -14,6 +14,8 @@
 namespace yadefrag {
 namespace {
 
+/// (Pa) By body of `bodies`.
+const std::vector<double> kStrength = {3e8, 2e8, 2e8, 2e8, 2e8, 2e8, 1, 2e8};
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// xx, yy, xy of RᵀP, R found by its angle.
@@ -123,14 +125,13 @@ Found lookAt(Model model, const std::vector<double>& strength, int threads,
 }
 
 TEST(Stressed, AreThoseThatTheScalarSumFinds) {
-  const std::vector<double> strength = {3e8, 2e8, 2e8, 2e8, 2e8, 2e8, 1, 2e8};
   std::size_t most = 0;
   std::size_t least = 1000000;
   for (const double by : {0., 1e-4, 3e-4, 1e-3, 3e-3, 1e-2}) {
     Model model = bodies();
     distort(model, by);
-    const Found found = lookAt(model, strength, 1);
-    check(model, strength, found.ranges);
+    const Found found = lookAt(model, kStrength, 1);
+    check(model, kStrength, found.ranges);
     most = std::max(most, found.ranges.size());
     least = std::min(least, found.ranges.size());
   }
@@ -139,12 +140,11 @@ TEST(Stressed, AreThoseThatTheScalarSumFinds) {
 }
 
 TEST(Stressed, AreTheSameForAnyThreadsAndInstructionSet) {
-  const std::vector<double> strength = {3e8, 2e8, 2e8, 2e8, 2e8, 2e8, 1, 2e8};
   Model model = bodies();
   distort(model, 1e-3);
-  const Found one = lookAt(model, strength, 1);
-  EXPECT_EQ(lookAt(model, strength, 2).ranges, one.ranges);
-  EXPECT_EQ(lookAt(model, strength, 2, InstructionSet::kBaseline).ranges, one.ranges);
+  const Found one = lookAt(model, kStrength, 1);
+  EXPECT_EQ(lookAt(model, kStrength, 2).ranges, one.ranges);
+  EXPECT_EQ(lookAt(model, kStrength, 2, InstructionSet::kBaseline).ranges, one.ranges);
   const std::vector<Vec2> unwatched = lookAt(model, {}, 2).forces;
   EXPECT_TRUE(one.forces == unwatched);
 }
@@ -177,10 +177,9 @@ TEST(Stressed, BodiesInOneChunkAreWatchedForTheWeakest) {
 }
 
 TEST(Stressed, AreLookedForAfterSplitsToo) {
-  const std::vector<double> strength = {3e8, 2e8, 2e8, 2e8, 2e8, 2e8, 1, 2e8};
   Model model = bodies();
   ExplicitDynamics dynamics;
-  dynamics.setStressLimits(strength);
+  dynamics.setStressLimits(kStrength);
   dynamics.rebuild(model);
   std::vector<ElementId> changed;
   std::vector<NodeId> originals;
@@ -194,7 +193,7 @@ TEST(Stressed, AreLookedForAfterSplitsToo) {
   distort(model, 1e-3);
   dynamics.predict(model, 0, {}, {}, 1);
   EXPECT_FALSE(dynamics.stressed().empty());
-  check(model, strength, dynamics.stressed());
+  check(model, kStrength, dynamics.stressed());
 }
 
 TEST(Stressed, TheMeasureBoundsTheEffectiveTractionInEveryDirection) {

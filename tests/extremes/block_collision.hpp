@@ -47,8 +47,7 @@ inline void addBlock(World& world, const BlockCollision& collision, Vec2 low, in
 }
 
 inline World worldOf(const BlockCollision& collision) {
-  World world;
-  world.contactSettings.passes = collision.passes;
+  World world = inPasses(collision.passes);
   addBlock(world, collision, {-1 - collision.gap, 0}, collision.parts, collision.left,
            collision.speed);
   addBlock(world, collision, {0, collision.aside}, collision.parts + 1, collision.right, 0);

@@ -14,47 +14,34 @@ namespace yadefrag::test {
 namespace {
 
 constexpr double kSide = .01;  // m
-const ElasticMaterial kSteel{210e9, 0, 7800, false};
-
-/// Squares in a row that touch exactly; without Poisson's ratio a wave in them is plane.
-World row(int squares, int parts, int struck, double speed) {
-  World world = twoPasses();
-  for (int k = 0; k < squares; ++k) {
-    const Vec2 low{kSide * k, 0};
-    const TriangleMesh mesh =
-        structuredRectangle(low, low + Vec2{kSide, kSide}, parts, parts, QuadPattern::kCrossed);
-    BodySpec spec = moving(mesh, kSteel, {k < struck ? speed : 0, 0});
-    spec.selfContact = false;
-    world.addBody(mesh, spec);
-  }
-  return world;
-}
-
-std::vector<double> velocities(const World& world) {
-  std::vector<double> found;
-  for (std::size_t k = 0; k < world.model.components.size(); ++k)
-    found.push_back(meanVelocity(world, ComponentId(k)).x);
-  return found;
-}
 
 // Newton's cradle of squares: as many leave at the far end as came in, one after the other, the
-// rest is left at rest, none passes another.
+// rest is left at rest, none passes another. Without Poisson's ratio a wave in them is plane.
 TEST(ExtremeChain, TwoHundredBodiesAtOnce) {
   constexpr int kSquares = 200, kStruck = 3;
   constexpr double kSpeed = 1;  // m/s
-  World world = row(kSquares, 2, kStruck, kSpeed);
+  World world = twoPasses();
+  for (int k = 0; k < kSquares; ++k) {
+    const Vec2 low{kSide * k, 0};
+    const TriangleMesh mesh =
+        structuredRectangle(low, low + Vec2{kSide, kSide}, 2, 2, QuadPattern::kCrossed);
+    BodySpec spec = moving(mesh, steel(0), {k < kStruck ? kSpeed : 0, 0});
+    spec.selfContact = false;
+    world.addBody(mesh, spec);
+  }
   const double dt = .9 * world.criticalTimeStep();
   const double energy = world.kineticEnergy();
   const double impulse = mass(world, ComponentId(0UL)) * kStruck * kSpeed;
-  const double wave = std::sqrt(kSteel.waveModulus() / kSteel.density);
+  const double wave = std::sqrt(steel(0).waveModulus() / steel(0).density);
   double drift = 0, lost = 0;
   while (world.time < 1.5 * kSquares * kSide / wave) {
     world.step(dt);
     drift = std::max(drift, std::abs(totalEnergy(world) / energy - 1));
   }
-  const std::vector<double> v = velocities(world);
+  std::vector<double> v;
   double disorder = 0;  // of the speed: how much faster a body is than the one ahead
-  for (std::size_t k = 0; k < v.size(); ++k) {
+  for (std::size_t k = 0; k < kSquares; ++k) {
+    v.push_back(meanVelocity(world, ComponentId(k)).x);
     lost += mass(world, ComponentId(k)) * v[k];
     if (k > 0) disorder = std::max(disorder, (v[k - 1] - v[k]) / kSpeed);
   }
@@ -95,7 +82,7 @@ World wedgeInCorner(double halfAngle, double friction) {
 }
 
 TEST(ExtremeCorner, AWedgeIsDrivenIn) {
-  RunResult worst;
+  double deepest = 0;
   for (const double angle : {10., 29.9, 30., 30.1, 45.})
     for (const double friction : {0., .5, 100.}) {
       SCOPED_TRACE(angle);
@@ -106,14 +93,11 @@ TEST(ExtremeCorner, AWedgeIsDrivenIn) {
       EXPECT_LT(result.deepest, .05);
       EXPECT_LT(result.growth, .02);
       EXPECT_LT(result.drift, .01);
-      worst.deepest = std::max(worst.deepest, result.deepest);
-      worst.growth = std::max(worst.growth, result.growth);
-      worst.drift = std::max(worst.drift, result.drift);
+      deepest = std::max(deepest, result.deepest);
     }
-  record("deepest_in_segments", worst.deepest), record("growth", worst.growth);
-  record("drift", worst.drift);
+  record("deepest_in_segments", deepest);
   constexpr double kStated = 1.4e-4;  // depends on rounding
-  EXPECT_NEAR(std::log(worst.deepest), std::log(kStated), std::log(3.));
+  EXPECT_NEAR(std::log(deepest), std::log(kStated), std::log(3.));
   limit("wedge driven into a corner of 60 degrees: deepest overlap, of a segment", kNone, kStated,
         "reduced slowly");
 }
@@ -249,33 +233,22 @@ TEST(ExtremeStrength, WithNoneEveryEdgeBreaksAndNothingIsLost) {
   figure("momentum", norm(now.momentum - before.momentum), 0, 1e-12);
   figure("cracked_edges", static_cast<double>(world.fracture.numCracks()) / edges, 1, 0);
   checkLaws(world.model, world.fracture.edges, world.surfaces);
-}
-
-TEST(ExtremeStrength, BeyondNumbersIsRefused) {
-  for (const double strength : {double(INFINITY), double(NAN), -1.})
-    EXPECT_FALSE(sentenceOf([&] { (void)blocks(strength, 0); }).empty()) << strength;
-  for (const double energy : {double(INFINITY), double(NAN), -1.})
-    EXPECT_FALSE(sentenceOf([&] { (void)blocks(1e6, energy); }).empty()) << energy;
   limit("tensile strength, Pa", 1e-300, 1e300, "refused: must be positive and finite");
 }
 
-TEST(ExtremeFractureEnergy, TooLittleIsRefusedAndNoneOpensAtOnce) {
+TEST(ExtremeFractureEnergy, TooLittleIsRefused) {
   double least = INFINITY;
   for (double energy = 1e4; energy > 1e-9; energy /= 10) {
     World world = blocks(1e6, energy);
     const double dt = .5 * world.criticalTimeStep();
     const std::string sentence = sentenceOf([&] { world.step(dt); });
     if (!sentence.empty()) {
-      EXPECT_NE(sentence.find("does not resolve"), std::string::npos) << sentence;
+      EXPECT_TRUE(contains(sentence, "does not resolve"));
       continue;
     }
     EXPECT_LE(energy, least) << "refused above, but not here";
     least = energy;
   }
-  World sudden = blocks(1e6, 0);
-  stepFor(sudden, .5, 300);
-  EXPECT_GT(sudden.fracture.numCracks(), 0U);
-  EXPECT_EQ(sudden.ledger.fracture, 0);
   limit("fracture energy, J/m² (1 MPa, elements of 2 mm, half the critical step)", least, kNone,
         "refused: a shorter step or smaller elements are needed; 0 opens at once");
 }

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
-#include <thread>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -75,39 +73,38 @@ double farthest(std::vector<double> values, const std::function<double(double)>&
   return most;
 }
 
-TEST(EdgeStrength, FollowsTheWeibullDistribution) {
-  for (const double m : {1., 2., 20., 50.}) {
-    const std::vector<double> sample = strengths(weibull(m));
-    EXPECT_LT(farthest(sample, [&](double s) { return -std::expm1(-std::pow(s / kStrength, m)); }),
-              kFarthest);
-    const double first = std::tgamma(1 + 1 / m);
-    const double spread = std::sqrt(std::tgamma(1 + 2 / m) - first * first);
-    // Three deviations of the mean; that of the spread's is up to √2 times as wide (m = 1).
-    const double tolerance = 3 * spread / std::sqrt(kEdges);
-    EXPECT_NEAR(mean(sample) / kStrength, first, tolerance) << m;
-    EXPECT_NEAR(deviation(sample) / kStrength, spread, 1.5 * tolerance) << m;
-  }
+/// Of the strength, with mean and deviation to three deviations of the sample's mean; `wide`: that
+/// of the deviation, in these.
+void expectDistribution(const std::vector<double>& sample,
+                        const std::function<double(double)>& distribution, double middle,
+                        double spread, double wide = 1) {
+  const double tolerance = 3 * spread / std::sqrt(kEdges);
+  EXPECT_LT(farthest(sample, [&](double s) { return distribution(s / kStrength); }), kFarthest);
+  EXPECT_NEAR(mean(sample) / kStrength, middle, tolerance);
+  EXPECT_NEAR(deviation(sample) / kStrength, spread, wide * tolerance);
 }
 
-TEST(EdgeStrength, FollowsTheEvenDistribution) {
+TEST(EdgeStrength, FollowsTheWeibullAndTheEvenDistribution) {
+  for (const double m : {1., 2., 20., 50.}) {
+    SCOPED_TRACE(m);
+    const double first = std::tgamma(1 + 1 / m);
+    expectDistribution(
+        strengths(weibull(m)), [&](double s) { return -std::expm1(-std::pow(s, m)); }, first,
+        std::sqrt(std::tgamma(1 + 2 / m) - first * first), 1.5);  // up to √2 at m = 1
+  }
   const double s = .3;
   const std::vector<double> sample = strengths(even(s));
-  EXPECT_LT(farthest(sample, [&](double x) { return (x / kStrength - 1 + s) / (2 * s); }),
-            kFarthest);
-  EXPECT_NEAR(mean(sample) / kStrength, 1, 3 * s / std::sqrt(3. * kEdges));
-  EXPECT_NEAR(deviation(sample) / kStrength, s / std::sqrt(3.), 3 * s / std::sqrt(3. * kEdges));
+  expectDistribution(
+      sample, [&](double x) { return (x - 1 + s) / (2 * s); }, 1, s / std::sqrt(3.));
   EXPECT_GT(*std::min_element(sample.begin(), sample.end()), (1 - s) * kStrength);
   EXPECT_LT(*std::max_element(sample.begin(), sample.end()), (1 + s) * kStrength);
-}
-
-TEST(EdgeStrength, IsTheScaleWithoutScatter) {
-  for (const std::uint64_t edge : {0ull, 1ull, 1ull << 40})
-    EXPECT_EQ(edgeStrength({.tensileStrength = kStrength, .seed = 3}, edge), kStrength);
 }
 
 TEST(EdgeStrength, OfBothScattersIsTheirProduct) {
   BrittleMaterial both = weibull(20);
   both.strengthScatter = .1;
+  const BrittleMaterial none{.tensileStrength = kStrength, .seed = 3};
+  EXPECT_EQ(edgeStrength(none, 1ull << 40), kStrength);
   for (std::uint64_t edge = 0; edge < 1000; ++edge)
     EXPECT_NEAR(edgeStrength(both, edge),
                 edgeStrength(weibull(20), edge) * edgeStrength(even(.1), edge) / kStrength,

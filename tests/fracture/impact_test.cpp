@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "core/checks.hpp"
@@ -17,66 +16,54 @@ namespace {
 // --- An elastic cylinder on a brittle block (fig. 15 of the paper, small): what must hold while a
 // body falls to pieces.
 
-/// What must hold in any case. `given`: most that contact may give.
-void expectSound(const ImpactResult& result, double given = .003) {
+struct ImpactCase {
+  const char* name;
+  ImpactSetting setting;
+  double growth, given = .003;  ///< least of the segments, most that contact may give
+};
+
+/// Cohesion takes its energy, and a free block keeps the momentum. The irregular mesh is that with
+/// which `addPolygon` meshes what can crack; it is hit fastest.
+const ImpactCase kImpacts[] = {
+    {"InstantCracks", {.size = 8e-4}, 7},
+    {"IrregularMesh", {.speed = 200, .nodes = NodeLayout::kScattered}, 7},
+    // The tractions that keep the faces of a crack apart do not include what contact does
+    // afterwards in the same step: one gives what the other takes. 0.013 measured, a third and a
+    // ninth of it with half and a quarter of the step.
+    {"Cohesion", {.fractureEnergy = 500}, 2, .02},
+    {"FreeBlock", {.held = false}, 1}};
+
+class Impact : public testing::TestWithParam<ImpactCase> {};
+
+TEST_P(Impact, ABlockFallsToPieces) {
+  const auto& [name, setting, growth, given] = GetParam();
+  const ImpactResult result = runImpact(setting);
   record("cracks", static_cast<double>(result.cracks));
   record("growth", result.growth);
+  EXPECT_GT(result.growth, growth);
   // What sweeps leave that end before all is solved, a part of a step's motion; up to 2e-4 of a
   // segment counts as touching.
   figure("deepest_in_segments", result.deepest, 0, 5e-4);
   figure("deepest_triangles_in_segments", result.triangles, 0, 5e-4);
-  figure("part_deeper_than_a_thousandth", result.mostDeep, 0, 0);
   figure("energy_drift", result.drift, 0, .01);
-  // Rounding of some 10⁴ sums.
+  // Rounding of some 10⁴ sums; forces are summed by node in any order of size, 10³ nodes and 500
+  // steps.
   figure("mass_error", result.massError, 0, 1e-12);
+  if (!setting.held) figure("momentum_error", result.momentumError, 0, 1e-12);
   // Contact takes energy. It gives a little where it lets old overlaps out.
   figure("given_by_contact", result.given, 0, given);
   EXPECT_GT(result.contact, 0);
   record("contact", result.contact);
   record("fracture", result.fracture);
+  EXPECT_EQ(result.fracture > 0, setting.fractureEnergy > 0);
 }
 
-TEST(Impact, ABlockFallsToPieces) {
-  const ImpactResult result = runImpact({.size = 8e-4});
-  expectSound(result);
-  EXPECT_GT(result.growth, 7);
-  EXPECT_EQ(result.fracture, 0);
-}
-
-/// As `addPolygon` meshes what can crack; the fastest.
-TEST(Impact, OnAnIrregularMesh) {
-  const ImpactResult result = runImpact({.speed = 200, .nodes = NodeLayout::kScattered});
-  expectSound(result);
-  EXPECT_GT(result.growth, 7);
-}
-
-TEST(Impact, CohesionTakesItsEnergy) {
-  const ImpactResult result = runImpact({.fractureEnergy = 500});
-  // The tractions that keep the faces of a crack apart do not include what contact does afterwards
-  // in the same step: one gives what the other takes. 0.013 measured, a third and a ninth of it
-  // with half and a quarter of the step.
-  expectSound(result, .02);
-  EXPECT_GT(result.growth, 2);
-  EXPECT_GT(result.fracture, 0);
-}
-
-TEST(Impact, AFreeBlockKeepsTheMomentum) {
-  const ImpactResult result = runImpact({.held = false});
-  expectSound(result);
-  // Rounding: forces are summed by node in any order of size, 10³ nodes and 500 steps.
-  figure("momentum_error", result.momentumError, 0, 1e-12);
-}
-
-/// (N) Sum of the contact forces' sizes.
-double totalContactForce(const World& world) {
-  double sum = 0;
-  for (const Vec2 force : world.contact.forces()) sum += norm(force);
-  return sum;
-}
+INSTANTIATE_TEST_SUITE_P(Blocks, Impact, testing::ValuesIn(kImpacts),
+                         [](const auto& test) { return test.param.name; });
 
 // A block under compression that is weak along its diagonal and slides there. In the very step
 // after the first faces come to light they push each other.
-TEST(Impact, NewFacesTouchInTheNextStep) {
+TEST(ImpactOn, NewFacesTouchInTheNextStep) {
   World world;
   const TriangleMesh mesh = structuredRectangle({0, 0}, {.01, .01}, 10, 10, QuadPattern::kCrossed);
   BodySpec spec = moving(mesh, {370e9, .22, 3900, false}, {0, 0});
@@ -92,11 +79,12 @@ TEST(Impact, NewFacesTouchInTheNextStep) {
   for (int i = 0; i < 1000; ++i) {
     world.step(dt);
     if (faces >= 0 && i == faces + 1) {
-      EXPECT_GT(totalContactForce(world), 0);
+      EXPECT_TRUE(
+          std::ranges::any_of(world.contact.forces().known, [](Vec2 f) { return norm(f) > 0; }));
     }
     // First the held corners part, which do not move.
     if (faces < 0 && world.surfaces.segments() > segments + 10) faces = i;
-    deepest = std::max(deepest, Overlaps(world.model).deepest().depth);
+    deepest = std::max(deepest, deepestNode(world));
   }
   ASSERT_GE(faces, 0);
   EXPECT_EQ(world.fracture.numCracks(), 20U);
@@ -174,10 +162,15 @@ Spall strike(double size, double flyer, double relative, double share = 0) {
   return spall;
 }
 
+class SpallOf : public testing::TestWithParam<std::tuple<double, double, double, double>> {};
+
 // A front is some elements wide, and a node's stress the mean of the elements around it: the first
 // crack opens up to three elements' travel later than behind ideal fronts (1.9 and 2.2 measured),
-// and at most one from the place where they part.
-void expectAsWavesPart(const Spall& spall, double size, double flyer) {
+// and at most one from the place where they part. On an irregular mesh lone elements are faster
+// than the whole: with the critical step of the whole one of the shards was inverted.
+TEST_P(SpallOf, OpensWhereTheWavesPart) {
+  const auto [size, flyer, relative, share] = GetParam();
+  const Spall spall = strike(size, flyer, relative, share);
   ASSERT_GT(spall.cracks, 0U);
   const double c = std::sqrt(kCeramic.waveModulus() / kCeramic.density);
   figure("place_in_elements", (spall.firstCrack - flyer) / size, 0, 1);
@@ -185,34 +178,13 @@ void expectAsWavesPart(const Spall& spall, double size, double flyer) {
   // The leapfrog's own error, and that of sums of some thousand values.
   figure("energy_error", spall.energyError, 0, 1e-5);
   figure("momentum_error", spall.momentumError, 0, 1e-12);
-}
-
-class SpallOf : public testing::TestWithParam<std::tuple<double, double, double>> {};
-
-TEST_P(SpallOf, OpensWhereTheWavesPart) {
-  const auto [size, flyer, relative] = GetParam();
-  const Spall spall = strike(size, flyer, relative);
-  expectAsWavesPart(spall, size, flyer);
   figure("mass_error", spall.massError, 0, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(SizesFlyersStrengths, SpallOf,
+INSTANTIATE_TEST_SUITE_P(SizesFlyersStrengthsShares, SpallOf,
                          testing::Combine(testing::Values(4e-4, 2e-4),
                                           testing::Values(.0028, .004, .006),
-                                          testing::Values(.7, .9)));
-
-class SpallOfAnyMesh : public testing::TestWithParam<std::tuple<double, double, double>> {};
-
-// Lone elements are faster than the whole: with the critical step of the whole one of the shards
-// was inverted.
-TEST_P(SpallOfAnyMesh, OpensWhereTheWavesPart) {
-  const auto [size, flyer, relative] = GetParam();
-  expectAsWavesPart(strike(size, flyer, relative, .2), size, flyer);
-}
-
-INSTANTIATE_TEST_SUITE_P(SizesFlyersStrengths, SpallOfAnyMesh,
-                         testing::Combine(testing::Values(4e-4, 2e-4), testing::Values(.0028, .006),
-                                          testing::Values(.7, .9)));
+                                          testing::Values(.7, .9), testing::Values(0., .2)));
 
 // Two fronts that meet ring: 1.44 was seen.
 TEST(Spall, APlateStrongerThanThePulseHolds) { EXPECT_EQ(strike(4e-4, .004, 1.6).cracks, 0U); }

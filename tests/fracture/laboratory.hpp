@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -67,7 +66,7 @@ inline void draw(BodySpec& spec, const TriangleMesh& mesh, double length, double
 inline void expectRefused(const TriangleMesh& mesh, const BodySpec& spec, const char* part) {
   World world;
   const std::string text = refusalOf([&] { world.addBody(mesh, spec); });
-  EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  EXPECT_TRUE(contains(text, part)) << part << ": " << text;
   EXPECT_EQ(world.model.nodes.size(), 0);
   EXPECT_EQ(world.fracture.edges.size(), 0);
 }
@@ -94,31 +93,6 @@ inline double bondedLength(const World& world) {
   double sum = 0;
   for (const double area : world.fracture.cohesion.area) sum += 2 * area;
   return sum;
-}
-
-/// (m/s) At a place along a bar: a pulse of 1 m/s between x = .05 and .15 m.
-inline double pulse(double x) {
-  return .5 * (1 - std::cos(2 * M_PI * std::clamp((x - .05) / .1, 0., 1.)));
-}
-
-/// Bonded bars in which the pulse has run 0.2 m at the speed of sound c, in steps of `dt`.
-inline World pulseIn(const std::vector<TriangleMesh>& parts, double dt) {
-  World world;
-  const double c = std::sqrt(kMaterial.young / kMaterial.density);
-  for (const TriangleMesh& mesh : parts) {
-    BodySpec spec = resting(mesh);
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-      const double s = std::clamp((mesh.nodes[n].x - .05) / .1, 0., 1.);
-      spec.velocity[n].x = pulse(mesh.nodes[n].x);
-      const double passed = s - std::sin(2 * M_PI * s) / (2 * M_PI);
-      spec.displacement.push_back({.1 / (2 * c) * (1 - passed), 0});
-    }
-    world.addBody(mesh, spec);
-  }
-  for (std::size_t i = 1; i < parts.size(); ++i)
-    world.bond(ComponentId(i - 1), ComponentId(i), 1e9, 1e6);
-  while (world.time < .2 / c) world.step(dt);
-  return world;
 }
 
 /// A brick on two half bricks that are shifted by `part` of an element, turned by `angle`.

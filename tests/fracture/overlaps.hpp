@@ -1,16 +1,15 @@
 #pragma once
-// How deep the deepest node is inside another piece or its own, and the deepest triangle inside
-// another: everything against everything, independently of surfaces, slaves, masters or flags. Tips
-// that pass each other may overlap without a node of either inside the other. A run with a record:
-// points on the wrong side, and energy created. An elastic cylinder on a brittle block (fig. 15 of
-// the paper, small), and what is measured while the block falls to pieces.
+// How deep the deepest node is inside another piece or its own: everything against everything,
+// independently of surfaces, slaves, masters or flags. Tips that pass each other may overlap
+// without a node of either inside the other: deepestOverlap of lib. A run with a record: points on
+// the wrong side, and energy created. An elastic cylinder on a brittle block (fig. 15 of the paper,
+// small), and what is measured while the block falls to pieces.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "core/checks.hpp"
@@ -28,72 +27,31 @@ inline double distanceToSide(Vec2 point, Vec2 a, Vec2 b) {
   return norm(point - a - at * along);
 }
 
-using Corners = std::array<Vec2, 3>;
-
-struct Overlap {
-  double depth = 0;  ///< m
-  NodeId node;
-  ElementId in;
-};
-
 class Overlaps {
  public:
   explicit Overlaps(const Model& model)
       : model_(model), piece_(piecesOf(model)), sides_(boundarySides(model)) {
     onBoundary_.resize(model.nodes.size());
-    for (std::size_t e = 0; e < piece_.size(); ++e)
-      for (const Side side : sides_) onBoundary_[firstNode(model, side).value] = true;
+    for (const Side side : sides_) onBoundary_[firstNode(model, side).value] = true;
   }
 
-  /// Every boundary node that is inside some triangle which is not its own.
-  [[nodiscard]] std::vector<Overlap> all() const {
+  /// (m) Of any boundary node that is inside a triangle which is not its own.
+  [[nodiscard]] double deepest() const {
     std::vector<NodeId> nodes;  // by x
     for (std::size_t n = 0; n < onBoundary_.size(); ++n)
       if (onBoundary_[n]) nodes.emplace_back(n);
     const auto x = [&](NodeId node) { return at(node).x; };
     std::ranges::sort(nodes, {}, x);
-    std::vector<Overlap> found;
+    double worst = 0;
     for (std::uint32_t e = 0; e < piece_.size(); ++e) {
       const auto& c = model_.triangles.nodes[e];
       const auto [low, high] = std::minmax({at(c[0]).x, at(c[1]).x, at(c[2]).x});
       for (auto i = std::ranges::lower_bound(nodes, low, {}, x); i != nodes.end() && x(*i) <= high;
-           ++i) {
-        if (std::ranges::find(c, *i) != c.end() || !isIn(at(*i), c)) continue;
-        found.push_back({depthIn(piece_[e], *i), *i, ElementId(e)});
-      }
+           ++i)
+        if (std::ranges::find(c, *i) == c.end() && isIn(at(*i), c))
+          worst = std::max(worst, depthIn(piece_[e], *i));
     }
-    return found;
-  }
-
-  [[nodiscard]] Overlap deepest() const {
-    Overlap worst;
-    for (const Overlap& overlap : all())
-      if (overlap.depth > worst.depth) worst = overlap;
     return worst;
-  }
-
-  /// (m) Of any two triangles. Connected triangles do not overlap.
-  [[nodiscard]] double deepestTriangles() const {
-    std::vector<std::pair<double, Corners>> byLowest;
-    for (const auto& nodes : model_.triangles.nodes) {
-      const Corners corners{at(nodes[0]), at(nodes[1]), at(nodes[2])};
-      byLowest.emplace_back(std::min({corners[0].x, corners[1].x, corners[2].x}), corners);
-    }
-    std::ranges::sort(byLowest, {}, [](const auto& entry) { return entry.first; });
-    double deepest = 0;
-    for (auto a = byLowest.begin(); a != byLowest.end(); ++a) {
-      const double highest = std::max({a->second[0].x, a->second[1].x, a->second[2].x});
-      for (auto b = a + 1; b != byLowest.end() && b->first < highest; ++b)
-        deepest = std::max(deepest, overlapOf(a->second, b->second));
-    }
-    return deepest;
-  }
-
-  /// Of all boundary nodes, the part that is deeper than this (m).
-  [[nodiscard]] double partDeeperThan(double depth) const {
-    const std::vector<Overlap> found = all();
-    const auto deep = std::ranges::count_if(found, [&](const auto& o) { return o.depth > depth; });
-    return static_cast<double>(deep) / static_cast<double>(sides_.size());
   }
 
  private:
@@ -123,7 +81,7 @@ class Overlaps {
 };
 
 /// (m) How deep the deepest boundary node is in another body or its own.
-inline double deepestNode(const World& world) { return Overlaps(world.model).deepest().depth; }
+inline double deepestNode(const World& world) { return Overlaps(world.model).deepest(); }
 
 struct RunResult {
   double deepest = 0;       ///< of the shortest segment: a boundary node in a body
@@ -186,7 +144,6 @@ struct ImpactSetting {
   double speed = 100;          // m/s
   bool held = true;            // the block, at its bottom
   int steps = 500, every = 5;  // steps between two looks at all overlaps
-  int threads = 1;
   NodeLayout nodes = NodeLayout::kRows;
   tolerance::Contact constants = {};
 };
@@ -195,20 +152,17 @@ struct ImpactResult {
   double growth = 0;     ///< of the number of segments
   double deepest = 0;    ///< of the shortest segment: a node in another piece or its own
   double triangles = 0;  ///< the same of two triangles, which may cross without a node in either
-  double mostDeep = 0;   ///< part of the boundary nodes deeper than a thousandth of it, at any time
   double drift = 0;      ///< of the start's energy: the ledger's total, either way
   double massError = 0, momentumError = 0;
   double contact = 0, fracture = 0;  ///< of the start's energy
   double given = 0;  ///< of it, the sum of what contact gave in steps in which it did
   std::uint64_t cracks = 0;
-  Nodes nodes;
 };
 
 inline World impact(const ImpactSetting& setting) {
   constexpr double kWidth = 20e-3, kHeight = 10e-3, kRadius = 5e-3;  // m
   World world = twoPasses();
   world.contactSettings.constants = setting.constants;
-  world.threads = setting.threads;
   const TriangleMesh block = triangulate({box({-kWidth / 2, -kHeight}, {kWidth / 2, 0}), {}},
                                          setting.size, {setting.nodes});
   BodySpec ceramic = brittle({370e9, .22, 3900, false}, 300e6, setting.fractureEnergy);
@@ -242,17 +196,14 @@ inline ImpactResult runImpact(const ImpactSetting& setting) {
     result.momentumError =
         std::max(result.momentumError, norm(sums.momentum - start.momentum) / norm(start.momentum));
     if (i % setting.every != 0) continue;
-    const Overlaps overlaps(world.model);
     const double shortest = shortestSide(world);
-    result.deepest = std::max(result.deepest, overlaps.deepest().depth / shortest);
-    result.triangles = std::max(result.triangles, overlaps.deepestTriangles() / shortest);
-    result.mostDeep = std::max(result.mostDeep, overlaps.partDeeperThan(1e-3 * shortest));
+    result.deepest = std::max(result.deepest, Overlaps(world.model).deepest() / shortest);
+    result.triangles = std::max(result.triangles, deepestOverlap(world.model) / shortest);
   }
   result.growth = static_cast<double>(world.surfaces.segments()) / segments;
   result.contact = world.ledger.contact / energy;
   result.fracture = world.ledger.fracture / energy;
   result.cracks = world.fracture.numCracks();
-  result.nodes = world.model.nodes;
   checkLaws(world.model, world.fracture.edges, world.surfaces);
   return result;
 }

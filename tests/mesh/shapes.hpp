@@ -102,10 +102,13 @@ inline std::vector<NodeId> nodesWhere(const Nodes& nodes, const std::function<bo
 
 // --- Polygons and checks that the mesh tests share.
 
-/// A star-shaped loop about the origin with random radii in [least, 1].
-inline Loop star(std::mt19937& random, int n, double least) {
-  Loop loop = circle({0, 0}, 1, n);
-  for (Vec2& p : loop) p *= std::uniform_real_distribution(least, 1.)(random);
+/// A star around `centre`: corners at even angles, at random distances from 1 − roughness times the
+/// radius.
+template <class Random>
+Loop star(Random& random, Vec2 centre, double radius, int corners, double roughness) {
+  std::uniform_real_distribution<double> part(1 - roughness, 1);
+  Loop loop = circle({}, 1, corners);
+  for (Vec2& p : loop) p = centre + radius * part(random) * p;
   return loop;
 }
 

@@ -1,10 +1,10 @@
-// Structured meshes. The matrices and masses of assembled triangles.
+// Structured meshes, and what appendBody refuses. Masses: checkFans of fracture/random_cracks.hpp;
+// matrices: elements/forces_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "core/errors.hpp"
@@ -17,16 +17,6 @@
 
 namespace yadefrag::test {
 namespace {
-
-using namespace test;
-
-std::vector<double> nodalAreas(const TriangleMesh& mesh) {
-  std::vector<double> areas(mesh.nodes.size());
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t node : t)
-      areas[node] += areaOf(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]]) / 3;
-  return areas;
-}
 
 TEST(Structured, IsSound) {
   for (const QuadPattern pattern : {QuadPattern::kUnionJack, QuadPattern::kCrossed})
@@ -46,7 +36,10 @@ TEST(Structured, IsSound) {
 
 TEST(Structured, CornersBalance) {
   const auto expectBalanced = [](const TriangleMesh& mesh, int nx, int ny) {
-    const std::vector<double> areas = nodalAreas(mesh);
+    std::vector<double> areas(mesh.nodes.size());
+    for (const auto& t : mesh.triangles)
+      for (const std::uint32_t node : t)
+        areas[node] += areaOf(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]]) / 3;
     const auto& loop = mesh.loops[0];
     for (const int corner : {nx, nx + ny, 2 * nx + ny})
       EXPECT_NEAR(areas[loop[corner]], areas[loop[0]], 1e-15);
@@ -83,9 +76,6 @@ TEST(Numbering, OrderIsAPermutationAlongTheCurve) {
     ASSERT_GE(code, last);
     last = code;
   }
-}
-
-TEST(Numbering, NoPointsOnePointEqualPoints) {
   EXPECT_TRUE(orderAlongCurve({}).empty());
   EXPECT_EQ(orderAlongCurve(std::vector<Vec2>{{3, 4}}), (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(orderAlongCurve(std::vector<Vec2>{{3, 4}, {3, 4}}), (std::vector<std::uint32_t>{0, 1}));
@@ -103,57 +93,21 @@ TEST(Numbering, ANeighbourIsNearInMemory) {
   EXPECT_LT(spans[spans.size() / 2], 16);
 }
 
-Component glass() {
-  Component c;
-  c.material = {.young = 70e9, .poisson = .2, .density = 2500};
-  c.thickness = .01;
-  return c;
-}
-
-Model threeBodies() {
-  Model model;
-  for (int i = 0; i < 3; ++i)
-    appendBody(model, structuredRectangle({2. * i, 0}, {2. * i + 1, 1}, 2 + i, 3), glass());
-  return model;
-}
-
-TEST(Assembly, MassIsDensityTimesAreaTimesThickness) {
-  const Model model = threeBodies();
-  EXPECT_NEAR(std::accumulate(model.nodes.mass.begin(), model.nodes.mass.end(), 0.), 3 * 25, 1e-9);
-  Model again = model;
-  lumpMasses(again);
-  EXPECT_EQ(again.nodes.mass, model.nodes.mass);
-}
-
-TEST(Assembly, InverseEdgesUndoTheEdges) {
-  const Model model = threeBodies();
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    const auto& [a, b, c] = model.triangles.nodes[t];
-    const auto& i = model.triangles.inverseEdges[t];
-    const Vec2 d1 = model.nodes.position[b.value] - model.nodes.position[a.value];
-    const Vec2 d2 = model.nodes.position[c.value] - model.nodes.position[a.value];
-    EXPECT_NEAR(d1.x * i[0] + d2.x * i[2], 1, 1e-14);
-    EXPECT_NEAR(d1.x * i[1] + d2.x * i[3], 0, 1e-14);
-    EXPECT_NEAR(d1.y * i[0] + d2.y * i[2], 0, 1e-14);
-    EXPECT_NEAR(d1.y * i[1] + d2.y * i[3], 1, 1e-14);
-  }
-}
-
-TEST(Assembly, ATriangleWithoutAreaIsRefusedBeforeAnythingChanges) {
-  TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 2, 2);
-  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
-  Model model;
-  EXPECT_THROW(appendBody(model, mesh, glass()), InputError);
-  EXPECT_EQ(model.nodes.size(), 0U);
-  EXPECT_TRUE(model.components.empty());
-}
-
 // --- The stretch by which a triangle comes to a stress.
 
 Component of(const ElasticMaterial& material) {
   Component component;
   component.material = material;
   return component;
+}
+
+TEST(Assembly, ATriangleWithoutAreaIsRefusedBeforeAnythingChanges) {
+  TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 2, 2);
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  Model model;
+  EXPECT_THROW(appendBody(model, mesh, of({70e9, .2, 2500})), InputError);
+  EXPECT_EQ(model.nodes.size(), 0U);
+  EXPECT_TRUE(model.components.empty());
 }
 
 TEST(InitialStress, IsThatOfTheTriangles) {

@@ -66,14 +66,6 @@ TEST(SortedList, RadixSortIsASort) {
     }
 }
 
-/// A list with the given entries, which are sorted.
-SortedList listOf(const std::vector<CodedSlot>& entries) {
-  SortedList list;
-  CountNothing uncounted;
-  list.insert(entries, uncounted);
-  return list;
-}
-
 TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
   // Lemma A.2: a constant number per entry that moved, here a tenth of them all.
   std::mt19937_64 random(8);
@@ -83,7 +75,9 @@ TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
     auto incoming = randomList(random, count / 10, 1ULL << 40);
     sortByCode(entries);
     sortByCode(incoming);
-    SortedList list = listOf(entries);
+    SortedList list;
+    CountNothing uncounted;
+    list.insert(entries, uncounted);
     CountAll counted;
     list.insert(incoming, counted);
     perMoved.push_back(static_cast<double>(counted.total().resort) /
@@ -93,26 +87,15 @@ TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
   EXPECT_LT(perMoved[1], 10);
 }
 
-// --- Rows of a sweep: the same places as std::lower_bound, for codes that advance, jump and
-// return.
-
-constexpr std::uint64_t kEnd = ~std::uint64_t{0};
-
-std::vector<std::uint64_t> randomCodes(std::mt19937_64& random, std::size_t count,
-                                       std::uint64_t most) {
-  std::vector<std::uint64_t> codes(count);
-  for (std::uint64_t& code : codes) code = random() % most;
-  std::sort(codes.begin(), codes.end());
-  codes.push_back(kEnd);
-  return codes;
-}
-
 /// Lemma A.3 with neighbours in the order of the sweep: a constant number of steps for each.
 TEST(RowBegins, AdvanceInAFewStepsEach) {
   std::mt19937_64 random(4);
   CountAll counted;
   constexpr std::size_t kCodes = 100000;
-  const auto codes = randomCodes(random, kCodes, 3 * kCodes);
+  std::vector<std::uint64_t> codes(kCodes);
+  for (std::uint64_t& code : codes) code = random() % (3 * kCodes);
+  std::sort(codes.begin(), codes.end());
+  codes.push_back(~std::uint64_t{0});
   RowBegins::OfLevel places;
   for (std::size_t i = 0; i < kCodes; ++i) places.lowerBound(0, codes, codes[i] + 500, counted);
   EXPECT_LE(counted.total().range, 3 * kCodes);
@@ -151,50 +134,30 @@ TEST(FilterBox, ExcludesAndDecidesCorrectly) {
   EXPECT_GT(open, 1000);
 }
 
-template <class Filters>
-std::vector<std::size_t> nearOnes(const Filters& filters, const FilterBox& box,
-                                  const std::vector<std::uint64_t>& codes, std::size_t begin,
-                                  std::uint64_t start, std::uint64_t stop) {
-  std::vector<std::size_t> found;
-  filters.forEachNear(box, codes.data(), begin, start, stop,
-                      [&](std::size_t j) { found.push_back(j); });
-  return found;
-}
-
 /// Each third box has another code.
-std::vector<std::uint64_t> codesOf(const std::vector<Box>& boxes) {
-  std::vector<std::uint64_t> codes;
-  for (std::size_t i = 0; i < boxes.size(); ++i) codes.push_back(i / 3 * 2);
-  codes.insert(codes.end(), FilterBlocks::kTogether, ~std::uint64_t{0});
-  return codes;
-}
-
-template <class Filters>
-Filters filtersOf(const std::vector<Box>& boxes) {
-  Filters filters;
-  filters.resize(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) filters.set(i, FilterBox::of(boxes[i], kScale));
-  return filters;
-}
-
 TEST(FilterBox, EveryInstructionSetCollectsTheSameBoxes) {
   std::mt19937_64 random(3);
   NearList near;
   std::size_t most = 0;
   for (int round = 0; round < 300; ++round) {
     const std::vector<Box> boxes = touchingBoxes(random, 1 + random() % 600);
-    const std::vector<std::uint64_t> codes = codesOf(boxes);
-    const auto blocks = filtersOf<FilterBlocks>(boxes);
+    std::vector<std::uint64_t> codes;
+    FilterBlocks blocks;
+    blocks.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      codes.push_back(i / 3 * 2);
+      blocks.set(i, FilterBox::of(boxes[i], kScale));
+    }
+    codes.insert(codes.end(), FilterBlocks::kTogether, ~std::uint64_t{0});
     const FilterBox box = FilterBox::of(boxes[random() % boxes.size()], kScale);
     std::vector<BlockRange> ranges;
     std::vector<std::size_t> wanted;
     for (std::uint64_t k = random() % 6; k > 0; --k) {
       const std::size_t begin = random() % boxes.size();
       ranges.push_back({begin, {codes[begin] + random() % 2, random() % 450}});
-      const BlockRange& range = ranges.back();
-      for (const std::size_t j :
-           nearOnes(blocks, box, codes, begin, range.codes.start, range.codes.stop))
-        wanted.push_back(j);
+      const auto& range = ranges.back().codes;
+      blocks.forEachNear(box, codes.data(), begin, range.start, range.stop,
+                         [&](std::size_t j) { wanted.push_back(j); });
     }
     for (const InstructionSet set : {InstructionSet::kBaseline, bestInstructionSet()}) {
       blocks.collectNear(set, box, codes.data(), ranges, near);

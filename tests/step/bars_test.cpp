@@ -233,8 +233,7 @@ TEST_P(TouchingBlocks, StandOnTheirFloor) {
 /// gravity does the same work until the wall swings back.
 TEST_P(TouchingBlocks, TakeTheEnergyOfBlocksAHairApart) {
   build({4});
-  World apart;
-  apart.contactSettings.passes = GetParam();
+  World apart = inPasses(GetParam());
   addBlockWall(apart, {4, 1e-10});
   const auto energy = [](const World& world) {
     return world.kineticEnergy() + world.strainEnergy();

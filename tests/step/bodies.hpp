@@ -45,11 +45,12 @@ inline RigidSpec rigidLine(Vec2 a, Vec2 b, double friction = 0) {
   return spec;
 }
 
-inline World twoPasses() {
+inline World inPasses(int passes) {
   World world;
-  world.contactSettings.passes = 2;
+  world.contactSettings.passes = passes;
   return world;
 }
+inline World twoPasses() { return inPasses(2); }
 
 inline ComponentId addMoving(World& world, const TriangleMesh& mesh,
                              const ElasticMaterial& material, Vec2 velocity) {

@@ -33,137 +33,118 @@ void expectSound(const RunResult& result) {
 
 class CornerOnCorner : public testing::TestWithParam<double> {};
 
-/// Blocks one on the other, their lateral faces aligned but for an offset.
-TEST_P(CornerOnCorner, BlockOnBlock) {
-  World world = twoPasses();
-  const Vec2 high{GetParam(), 1};
-  addMoving(world, structuredRectangle({0, 0}, {1, 1}, 6, 6), rubber(), {});
-  addMoving(world, structuredRectangle(high, high + Vec2{1, 1}, 8, 8), rubber(), {0, -10});
-  expectSound(watch(world, 2000, 10));
-}
-
-/// Squares that meet tip to tip.
-TEST_P(CornerOnCorner, TipOnTip) {
+/// Blocks one on the other, their lateral faces aligned but for an offset; squares tip to tip.
+TEST_P(CornerOnCorner, BlockOnBlockAndTipOnTip) {
   const double off = GetParam();
-  World world = twoPasses();
-  addMoving(world, meshOf({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, .2), rubber(), {});
-  addMoving(world, meshOf({{2.05, off - 1}, {3.05, off}, {2.05, off + 1}, {1.05, off}}, .17),
+  World blocks = twoPasses(), tips = twoPasses();
+  const Vec2 high{off, 1};
+  addMoving(blocks, structuredRectangle({0, 0}, {1, 1}, 6, 6), rubber(), {});
+  addMoving(blocks, structuredRectangle(high, high + Vec2{1, 1}, 8, 8), rubber(), {0, -10});
+  addMoving(tips, meshOf({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, .2), rubber(), {});
+  addMoving(tips, meshOf({{2.05, off - 1}, {3.05, off}, {2.05, off + 1}, {1.05, off}}, .17),
             rubber(), {-10, 0});
-  expectSound(watch(world, 2000, 10));
+  for (World* world : {&blocks, &tips}) expectSound(watch(*world, 2000, 10));
 }
 
 INSTANTIATE_TEST_SUITE_P(Offsets, CornerOnCorner,
                          testing::Values(0., 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, .02, -.1, .3));
 
-class SharpCorner : public testing::TestWithParam<std::tuple<double, int>> {};
-
 /// A wedge of 20°, held at its base, hit near its tip from above and from below.
-TEST_P(SharpCorner, IsHitNearItsTip) {
-  const auto [x, side] = GetParam();
-  World world = twoPasses();
-  const TriangleMesh wedge = meshOf({{0, -.18}, {1, 0}, {0, .18}}, .06);
-  BodySpec held = moving(wedge, rubber(), {0, 0});
-  hold(held, wedge, kHeldXY, [](Vec2 at) { return at.x < 1e-9; });
-  const double y = .5 * side;
-  world.addBody(wedge, held);
-  addMoving(world, meshOf(box({x - .3, y - .25}, {x + .3, y + .25}), .1), rubber(),
-            {0, -5. * side});
-  expectSound(watch(world, 6000, 20));
+TEST(SharpCorner, IsHitNearItsTip) {
+  for (const double x : {.9, .98, 1.02})
+    for (const int side : {1, -1}) {
+      SCOPED_TRACE(testing::Message() << x << ' ' << side);
+      World world = twoPasses();
+      const TriangleMesh wedge = meshOf({{0, -.18}, {1, 0}, {0, .18}}, .06);
+      BodySpec held = moving(wedge, rubber(), {0, 0});
+      hold(held, wedge, kHeldXY, [](Vec2 at) { return at.x < 1e-9; });
+      const double y = .5 * side;
+      world.addBody(wedge, held);
+      addMoving(world, meshOf(box({x - .3, y - .25}, {x + .3, y + .25}), .1), rubber(),
+                {0, -5. * side});
+      expectSound(watch(world, 6000, 20));
+    }
 }
-
-INSTANTIATE_TEST_SUITE_P(Places, SharpCorner,
-                         testing::Combine(testing::Values(.9, .98, 1.02), testing::Values(1, -1)));
-
-/// What falls into which notch: `half`, of the opening at 1 m and of the falling tip (m, m), how
-/// far the tip leans (rad) and is aside (m).
-struct Notch {
-  double half, tipHalf, lean, aside, speed;
-};
-
-class ConcaveCorner : public testing::TestWithParam<Notch> {};
 
 /// A blunt tip that falls into a wide notch, in the middle and aside; one of 20° that falls askew
 /// into a notch of 37°, which is too narrow for a foot.
-TEST_P(ConcaveCorner, TakesATip) {
-  const Notch& n = GetParam();
-  World world = twoPasses();
-  std::vector<Vec2> outline{{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}};
-  if (n.half < 1) outline = {{-1, -1}, {1, -1}, {1, 1}, {n.half, 1}, {0, 0}, {-n.half, 1}, {-1, 1}};
-  const TriangleMesh notch = meshOf(outline, .15);
-  BodySpec held = moving(notch, rubber(), {0, 0});
-  hold(held, notch, kHeldXY, [](Vec2 at) { return at.y < -1 + 1e-9; });
-  const bool narrow = n.half < 1;
-  const Vec2 low{n.aside, narrow ? .35 : .3}, back{std::sin(n.lean), std::cos(n.lean)};
-  const Vec2 top = low + (narrow ? 1 : .6) * back, across = n.tipHalf * rightOf(back);
-  world.addBody(notch, held);
-  addMoving(world, meshOf({low, top + across, top - across}, .1), rubber(), {0, -n.speed});
-  expectSound(watch(world, 4000, 20));
+TEST(ConcaveCorner, TakesATip) {
+  // Half of the opening at 1 m and of the falling tip (m, m), how far the tip leans (rad) and is
+  // aside (m), its speed (m/s).
+  for (const auto& [half, tipHalf, lean, aside, speed] : {std::tuple{1., .4, 0., 0., 10.},
+                                                          {1., .4, 0., 1e-6, 10.},
+                                                          {1., .4, 0., .05, 10.},
+                                                          {.333, .176, 0., 0., 8.},
+                                                          {.333, .176, .05, .005, 8.},
+                                                          {.333, .176, -.1, -.01, 8.}}) {
+    SCOPED_TRACE(testing::Message() << half << ' ' << aside);
+    World world = twoPasses();
+    std::vector<Vec2> outline{{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}};
+    if (half < 1) outline = {{-1, -1}, {1, -1}, {1, 1}, {half, 1}, {0, 0}, {-half, 1}, {-1, 1}};
+    const TriangleMesh notch = meshOf(outline, .15);
+    BodySpec held = moving(notch, rubber(), {0, 0});
+    hold(held, notch, kHeldXY, [](Vec2 at) { return at.y < -1 + 1e-9; });
+    const bool narrow = half < 1;
+    const Vec2 low{aside, narrow ? .35 : .3}, back{std::sin(lean), std::cos(lean)};
+    const Vec2 top = low + (narrow ? 1 : .6) * back, across = tipHalf * rightOf(back);
+    world.addBody(notch, held);
+    addMoving(world, meshOf({low, top + across, top - across}, .1), rubber(), {0, -speed});
+    expectSound(watch(world, 4000, 20));
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(Notches, ConcaveCorner,
-                         testing::Values(Notch{1, .4, 0, 0, 10}, Notch{1, .4, 0, 1e-6, 10},
-                                         Notch{1, .4, 0, .05, 10}, Notch{.333, .176, 0, 0, 8},
-                                         Notch{.333, .176, .05, .005, 8},
-                                         Notch{.333, .176, -.1, -.01, 8}));
-
-class ShallowNotch : public testing::TestWithParam<std::tuple<double, double, double>> {};
 
 /// A block with a notch lies on a ridge, of a slope of its own, and rattles from side to side. What
 /// contact gives is less than a thousandth of the energy; with the normal of the side that the
 /// ridge came from it was 125 % and 26 % of it without friction, here and where notch and ridge
 /// fit.
-TEST_P(ShallowNotch, RattlesOnARidgeWithoutEnergyFromNothing) {
-  const auto [slope, ridge, friction] = GetParam();
-  World world = twoPasses();
-  const double low = -.1 * slope;
-  const TriangleMesh block = meshOf({{-.1, low}, {0, 0}, {.1, low}, {.1, .1}, {-.1, .1}}, .02);
-  const double foot = -.2 * ridge;
-  const TriangleMesh roof =
-      meshOf({{-.2, foot - .05}, {.2, foot - .05}, {.2, foot}, {0, 0}, {-.2, foot}}, .03);
-  BodySpec above = moving(block, rubber(), {}), below = moving(roof, rubber(), {});
-  hold(below, roof, kHeldXY, [](Vec2) { return true; });
-  above.friction = below.friction = friction;
-  world.addBody(block, above);
-  world.addBody(roof, below);
-  world.dynamicsSettings.gravity = {0, -9.81};
-  const double dt = .8 * world.criticalTimeStep();
-  double energy = 0, given = 0;
-  for (int step = 0; step < 2000; ++step) {
-    world.step(dt);
-    energy = std::max(energy, world.kineticEnergy() + world.strainEnergy());
-    given = std::max(given, -world.ledger.contact);
+TEST(ShallowNotch, RattlesOnARidgeWithoutEnergyFromNothing) {
+  for (const auto& [slope, ridge, friction] :
+       {std::tuple(.15, .3, 0.), {.15, .3, .1}, {.1, .1, 0.}, {.1, .1, .3}}) {
+    SCOPED_TRACE(testing::Message() << slope << ' ' << friction);
+    World world = twoPasses();
+    const double low = -.1 * slope;
+    const TriangleMesh block = meshOf({{-.1, low}, {0, 0}, {.1, low}, {.1, .1}, {-.1, .1}}, .02);
+    const double foot = -.2 * ridge;
+    const TriangleMesh roof =
+        meshOf({{-.2, foot - .05}, {.2, foot - .05}, {.2, foot}, {0, 0}, {-.2, foot}}, .03);
+    BodySpec above = moving(block, rubber(), {}), below = moving(roof, rubber(), {});
+    hold(below, roof, kHeldXY, [](Vec2) { return true; });
+    above.friction = below.friction = friction;
+    world.addBody(block, above);
+    world.addBody(roof, below);
+    world.dynamicsSettings.gravity = {0, -9.81};
+    const double dt = .8 * world.criticalTimeStep();
+    double energy = 0, given = 0;
+    for (int step = 0; step < 2000; ++step) {
+      world.step(dt);
+      energy = std::max(energy, world.kineticEnergy() + world.strainEnergy());
+      given = std::max(given, -world.ledger.contact);
+    }
+    EXPECT_LE(given, 1e-3 * energy);
+    EXPECT_GT(world.contact.rows().size(), 0U);
   }
-  record("given", given / energy);
-  EXPECT_LE(given, 1e-3 * energy);
-  EXPECT_GT(world.contact.rows().size(), 0U);
 }
-
-INSTANTIATE_TEST_SUITE_P(Slopes, ShallowNotch,
-                         testing::Values(std::tuple(.15, .3, 0.), std::tuple(.15, .3, .1),
-                                         std::tuple(.1, .1, 0.), std::tuple(.1, .1, .3)));
 
 // --- A shape that breaks what holds for blocks: a splinter whose sides do not oppose what it
 // pricks.
 
-class Splinter : public testing::TestWithParam<std::tuple<double, int>> {};
-
 /// A needle with a tip of 5° falls on a block.
-TEST_P(Splinter, PricksABlock) {
-  const auto [tilt, passes] = GetParam();
-  World world;
-  world.contactSettings.passes = passes;
-  const TriangleMesh block = structuredRectangle({0, 0}, {1, .5}, 8, 4);
-  BodySpec held = moving(block, rubber(), {0, 0});
-  hold(held, block, kHeldXY, [](Vec2 at) { return at.y < 1e-9; });
-  const Vec2 tip{.53, .505}, back{std::sin(tilt), std::cos(tilt)};
-  const Vec2 aside = .0437 * rightOf(back);
-  world.addBody(block, held);
-  addMoving(world, meshOf({tip, tip + back + aside, tip + back - aside}, .05), rubber(), {0, -2});
-  expectSound(watch(world, 3000, 20));
+TEST(Splinter, PricksABlock) {
+  for (const double tilt : {0., .03, .3})
+    for (const int passes : {1, 2}) {
+      SCOPED_TRACE(testing::Message() << tilt << ' ' << passes);
+      World world = inPasses(passes);
+      const TriangleMesh block = structuredRectangle({0, 0}, {1, .5}, 8, 4);
+      BodySpec held = moving(block, rubber(), {0, 0});
+      hold(held, block, kHeldXY, [](Vec2 at) { return at.y < 1e-9; });
+      const Vec2 tip{.53, .505}, back{std::sin(tilt), std::cos(tilt)};
+      const Vec2 aside = .0437 * rightOf(back);
+      world.addBody(block, held);
+      addMoving(world, meshOf({tip, tip + back + aside, tip + back - aside}, .05), rubber(),
+                {0, -2});
+      expectSound(watch(world, 3000, 20));
+    }
 }
-
-INSTANTIATE_TEST_SUITE_P(TiltsAndPasses, Splinter,
-                         testing::Combine(testing::Values(0., .03, .3), testing::Values(1, 2)));
 
 // --- Smooth surfaces lie inside the polygon that was drawn: two round bodies meet later than their
 // polygons would, by what the README states.

@@ -19,10 +19,6 @@ TriangleMesh block(Vec2 low, int parts) {
   return structuredRectangle(low, low + Vec2{1, 1}, parts, parts);
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
   World world;
   const TriangleMesh mesh = block({0, 0}, 3);
@@ -163,28 +159,18 @@ std::string number(double value) {
   return text.str();
 }
 
-TEST(WorldStep, AboveTheCriticalStepIsRefused) {
-  World world = threeBodies();
-  const double critical = world.criticalTimeStep();
-  for (const double dt : {1.001 * critical, 10 * critical, 0., -critical, double(NAN)}) {
-    const std::string text = refusalOf([&] { world.step(dt); });
-    EXPECT_TRUE(contains(text, number(dt)) && contains(text, number(critical))) << text;
-  }
-  EXPECT_EQ(world.numSearches(), 0U);
-  world.step(critical);
-  EXPECT_EQ(world.steps, 1U);
-  EXPECT_EQ(world.time, critical);
-}
-
 TEST(WorldStep, AFinerBodyAndMoreViscosityLowerTheLimit) {
   World world = threeBodies();
   const double dt = .9 * world.criticalTimeStep();
   const auto expectRefused = [&] {
     const std::uint64_t steps = world.steps;
-    EXPECT_TRUE(contains(refusalOf([&] { world.step(dt); }), number(dt)));
+    const std::string text = refusalOf([&] { world.step(dt); });
+    EXPECT_TRUE(contains(text, number(dt)) && contains(text, number(world.criticalTimeStep())));
     EXPECT_EQ(world.steps, steps);
   };
+  EXPECT_EQ(world.numSearches(), 0U);
   world.step(dt);
+  EXPECT_EQ(world.time, dt);
   const ComponentId id = addMoving(world, block({9, 9}, 20), rubber(), {});
   expectRefused();
   world.removeBody(id);
@@ -194,34 +180,6 @@ TEST(WorldStep, AFinerBodyAndMoreViscosityLowerTheLimit) {
   world.dynamicsSettings.viscosity = {.05, 0};
   world.step(dt);
   EXPECT_EQ(world.steps, 3U);
-}
-
-TEST(WorldStep, AnElementThatCollapsesStopsTheRun) {
-  World world;
-  const TriangleMesh mesh = block({0, 0}, 6);
-  BodySpec spec = moving(mesh, rubber(), {0, 0});
-  spec.selfContact = false;  // otherwise contact requires a shorter step first
-  // All nodes rush to the middle at more than the speed of sound.
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    spec.velocity[n] = -1000. * (mesh.nodes[n] - Vec2{.5, .5});
-  world.addBody(mesh, spec);
-  const double dt = .5 * world.criticalTimeStep();
-  std::string text;
-  for (int i = 0; i < 1000 && text.empty(); ++i) text = saidBy<RunError>([&] { world.step(dt); });
-  ASSERT_FALSE(text.empty());
-  EXPECT_TRUE(contains(text, "Step " + std::to_string(world.steps))) << text;
-  EXPECT_TRUE(contains(text, "element ") && contains(text, "is pressed to")) << text;
-  std::ostringstream when;
-  when << "time " << world.time << " s";
-  EXPECT_TRUE(contains(text, when.str())) << text;
-  // The last good state can be looked at.
-  for (std::size_t e = 0; e < world.model.triangles.size(); ++e) {
-    const auto& corner = world.model.triangles.nodes[e];
-    const auto at = [&](int k) { return world.model.nodes.position[corner[k].value]; };
-    EXPECT_GT(cross(at(1) - at(0), at(2) - at(0)), 0) << e;
-  }
-  EXPECT_TRUE(std::isfinite(world.kineticEnergy()));
-  EXPECT_TRUE(std::isfinite(world.strainEnergy()));
 }
 
 // "Model only what the scene requires."
