@@ -94,9 +94,10 @@ double EnergyWatch::created(const EnergyLedger& ledger) const {
          std::max(0., -ledger.fracture);
 }
 
-/// (J) By contact and friction together; not below zero by rounding.
+/// (J) By contact and friction together; not below zero by rounding. The sum is that of `count`:
+/// without bodies each rounding error would be much.
 double EnergyWatch::createdByBoth(const EnergyLedger& ledger) const {
-  return std::max(0., dissipated - ledger.contact - ledger.friction);
+  return std::max(0., dissipated - (ledger.contact + ledger.friction));
 }
 
 /// (J) What contact or friction alone has given to the other.
