@@ -129,8 +129,7 @@ def whole(name):
 
 CODES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
          'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
-SCENES = {'gas': 'gas of equal spheres', 'packing': 'dense packing',
-          'mindlin': 'packing, Hertz and Mindlin', 'polydisperse': 'gas, radii 1 : 20',
+SCENES = {'gas': 'gas of equal spheres', 'packing': 'dense packing', 'polydisperse': 'gas, radii 1 : 20',
           'stirred': 'packing that a bar stirs', 'hopper': 'hopper of facets'}
 SIZE = '100000'
 
