@@ -134,7 +134,7 @@ TEST(CheckCohesiveResolution, RefusesFromTheStepOfTheFormulaOn) {
     const double crossed = compliance * ofStrength / (2 * kBrittle.fractureEnergy / ofStrength);
     const double limit = 2 * dt / std::sqrt(crossed) * part;
     EXPECT_EQ(saidAtStep(model, .9999 * limit), "");
-    const std::string sentence = saidAtStep(model, 1.0001 * limit);
+    std::string sentence = saidAtStep(model, 1.0001 * limit);
     EXPECT_NE(sentence, "");
     return sentence;
   };
