@@ -51,15 +51,16 @@ yade::Body::id_t moverIdOf(const yade::Scene& scene, const yade::Body& body,
 
 bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted,
                          const yade::NewtonIntegrator* newton) {
-  if (!wanted) {
+  const yade::Body* element = entries.anyBody();
+  // Without finite-element bodies a wall would have no length.
+  if (!wanted || element == nullptr) {
     if (any()) remove(scene, world, entries);
     members_.clear();
     seen_ = 0;
     return false;
   }
   findBodies(scene, newton);
-  const yade::Body* element = entries.anyBody();
-  const bool anyNew = takeNew(scene, element ? element->groupMask : 0);
+  const bool anyNew = takeNew(scene, element->groupMask);
   bool isBuilt = anyNew || !holds(scene, world, newton);
   if (isBuilt) build(scene, world, entries, newton);
   const bool mayBeShort = any() && world.search.isDue();

@@ -242,8 +242,7 @@ void FESolver::report(std::vector<std::string> sentences) {
 void FESolver::followRigid(bool enginesAreNew) {
   bool areNew = false;
   try {
-    const bool wanted = rigidBodies && bodies_.anyBody();
-    areNew = rigid_.follow(*scene, world_, bodies_, wanted, integrator(true));
+    areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, integrator(true));
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
                                 " FESolver(rigidBodies=False) disables contact with it.");
