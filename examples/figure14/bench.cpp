@@ -99,19 +99,16 @@ void runPoints(benchmark::State& state, const SceneKind& kind, int size, SearchM
     const auto scene = kind.make(size);
     PointSearchPlan plan = scene->plan();
     plan.directory = directory;
-    const auto timed = makePointSearch(method, plan, false);
-    const auto counted = makePointSearch(method, plan, true);
+    const auto points = makePointSearch(method, plan);
     Csr<EntryId> found;
     Tally tally;
     const auto search = [&](const MovingOutlines& now, double halo) {
       const std::vector<Rectangle> masters = now.masters();
-      counted->update(now.points());
-      counted->find(masters, halo, found);
       const auto start = Clock::now();
-      timed->update(now.points());
-      timed->find(masters, halo, found);
+      points->update(now.points());
+      points->find(masters, halo, found);
       const std::chrono::duration<double> seconds = Clock::now() - start;
-      tally.add(seconds.count(), counted->comparisons(), found.values.size(), halo);
+      tally.add(seconds.count(), points->comparisons(), found.values.size(), halo);
     };
     const int searches = forEachSearch(*scene, kind.searches, search);
     tally.report(state, *scene, searches);

@@ -23,7 +23,7 @@ enum class Lookup {
   kDirectory,    ///< SPC in this project: as in code_search.hpp, one access
 };
 
-template <class Numbering, Lookup kLookup, class Count>
+template <class Numbering, Lookup kLookup>
 class PointCodeSearch final : public PointSearch {
  public:
   explicit PointCodeSearch(const PointSearchPlan& plan)
@@ -46,8 +46,6 @@ class PointCodeSearch final : public PointSearch {
       candidates.offsets.push_back(static_cast<std::uint32_t>(candidates.values.size()));
     }
   }
-
-  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
  private:
   using Code = PositionCode<2>;
@@ -229,7 +227,6 @@ class PointCodeSearch final : public PointSearch {
   CodeDirectory directory_;
   std::vector<CodedSlot> moved_;
   std::vector<std::uint8_t> hasMoved_;
-  Count count_;
 };
 
 }  // namespace yadefrag

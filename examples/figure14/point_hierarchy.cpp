@@ -93,7 +93,6 @@ class SurfaceTree {
   std::vector<Node> nodes_;
 };
 
-template <class Count>
 class PointHierarchySearch final : public PointSearch {
  public:
   explicit PointHierarchySearch(PointSearchPlan plan) : loopStart_(std::move(plan.loopStart)) {}
@@ -119,8 +118,6 @@ class PointHierarchySearch final : public PointSearch {
         candidates, masters.size(), found_.size(), [&](std::size_t i) { return found_[i].master; },
         [&](std::size_t i) { return EntryId(found_[i].slave); });
   }
-
-  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
  private:
   struct Candidate {
@@ -175,14 +172,12 @@ class PointHierarchySearch final : public PointSearch {
   std::span<const Rectangle> masters_;
   double halo_ = 0, reach_ = 0;
   std::vector<Candidate> found_;
-  Count count_;
 };
 
 }  // namespace
 
-std::unique_ptr<PointSearch> makePointHierarchy(PointSearchPlan plan, bool countComparisons) {
-  if (countComparisons) return std::make_unique<PointHierarchySearch<CountAll>>(std::move(plan));
-  return std::make_unique<PointHierarchySearch<CountNothing>>(std::move(plan));
+std::unique_ptr<PointSearch> makePointHierarchy(PointSearchPlan plan) {
+  return std::make_unique<PointHierarchySearch>(std::move(plan));
 }
 
 }  // namespace yadefrag

@@ -1,6 +1,5 @@
 #include "figure14/point_search.hpp"
 
-#include <type_traits>
 #include <utility>
 
 #include "figure14/point_code_search.hpp"
@@ -9,12 +8,9 @@ namespace yadefrag {
 namespace {
 
 /// Tests every slave against every master: the reference for the other searches.
-template <class Count>
 class PointBruteForce final : public PointSearch {
  public:
   void update(std::span<const Vec2> points) override { points_ = points; }
-  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
-
   void find(std::span<const Rectangle> masters, double halo, Csr<EntryId>& candidates) override {
     candidates.values.clear();
     candidates.offsets.assign(1, 0);
@@ -29,38 +25,26 @@ class PointBruteForce final : public PointSearch {
 
  private:
   std::span<const Vec2> points_;
-  Count count_;
 };
 
-template <class Numbering, Lookup kLookup, class Count>
-std::unique_ptr<PointSearch> makeCodes(const PointSearchPlan& plan) {
-  return std::make_unique<PointCodeSearch<Numbering, kLookup, Count>>(plan);
-}
+}  // namespace
 
-template <class Count>
-std::unique_ptr<PointSearch> make(SearchMethod method, PointSearchPlan plan) {
+std::unique_ptr<PointSearch> makePointSearch(SearchMethod method, PointSearchPlan plan) {
   switch (method) {
     case SearchMethod::kLebesgue:
-      if (plan.directory) return makeCodes<LebesgueNumbering<2>, Lookup::kDirectory, Count>(plan);
-      return makeCodes<LebesgueNumbering<2>, Lookup::kExponential, Count>(plan);
+      if (plan.directory)
+        return std::make_unique<PointCodeSearch<LebesgueNumbering<2>, Lookup::kDirectory>>(plan);
+      return std::make_unique<PointCodeSearch<LebesgueNumbering<2>, Lookup::kExponential>>(plan);
     case SearchMethod::kLinearCode:
-      return makeCodes<LinearNumbering<2>, Lookup::kBinary, Count>(plan);
+      return std::make_unique<PointCodeSearch<LinearNumbering<2>, Lookup::kBinary>>(plan);
     case SearchMethod::kHierarchy:
-      return makePointHierarchy(std::move(plan), std::is_same_v<Count, CountAll>);
+      return makePointHierarchy(std::move(plan));
     case SearchMethod::kSweptRows:  // these two search boxes only
     case SearchMethod::kFastest:
     case SearchMethod::kBruteForce:
       break;
   }
-  return std::make_unique<PointBruteForce<Count>>();
-}
-
-}  // namespace
-
-std::unique_ptr<PointSearch> makePointSearch(SearchMethod method, PointSearchPlan plan,
-                                             bool countComparisons) {
-  return countComparisons ? make<CountAll>(method, std::move(plan))
-                          : make<CountNothing>(method, std::move(plan));
+  return std::make_unique<PointBruteForce>();
 }
 
 }  // namespace yadefrag

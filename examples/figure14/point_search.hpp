@@ -47,8 +47,11 @@ class PointSearch {
   /// Row i: the slaves in the halo of master i. There are as many masters as slaves.
   virtual void find(std::span<const Rectangle> masters, double halo, Csr<EntryId>& candidates) = 0;
 
-  /// Comparisons since construction; zero unless `makePointSearch` was called with counting.
-  [[nodiscard]] virtual Comparisons comparisons() const = 0;
+  /// Comparisons since construction.
+  [[nodiscard]] Comparisons comparisons() const { return count_.total(); }
+
+ protected:
+  Count count_{true};
 };
 
 /// Parameters of a search.
@@ -61,9 +64,8 @@ struct PointSearchPlan {
   bool directory = true;
 };
 
-std::unique_ptr<PointSearch> makePointSearch(SearchMethod method, PointSearchPlan plan,
-                                             bool countComparisons = false);
+std::unique_ptr<PointSearch> makePointSearch(SearchMethod method, PointSearchPlan plan);
 /// That of kHierarchy.
-std::unique_ptr<PointSearch> makePointHierarchy(PointSearchPlan plan, bool countComparisons);
+std::unique_ptr<PointSearch> makePointHierarchy(PointSearchPlan plan);
 
 }  // namespace yadefrag

@@ -27,7 +27,7 @@ constexpr Variant kAll[] = {kPrinted, kShipped, kLinear, kTree};
 
 std::unique_ptr<PointSearch> make(const Variant& variant, PointSearchPlan plan) {
   plan.directory = variant.directory;
-  return makePointSearch(variant.method, std::move(plan), true);
+  return makePointSearch(variant.method, std::move(plan));
 }
 
 /// Candidates as (master, slave), sorted.

@@ -23,7 +23,7 @@ class SweepAndPrune {
   }
 
   [[nodiscard]] std::size_t pairs() const { return pairs_.size(); }
-  [[nodiscard]] const Comparisons& comparisons() const { return count_.sum; }
+  [[nodiscard]] Comparisons comparisons() const { return count_.total(); }
 
  private:
   struct Bound {
@@ -102,7 +102,7 @@ class SweepAndPrune {
   const std::vector<Rectangle>* boxes_ = nullptr;
   std::array<std::vector<Bound>, 3> axes_;
   std::unordered_set<std::uint64_t> pairs_;
-  CountAll count_;
+  Count count_{true};
 };
 
 }  // namespace yadefrag::figure14

@@ -20,27 +20,25 @@ struct Comparisons {
   }
 };
 
-/// Policy of a search without counting: every call compiles to nothing.
-struct CountNothing {
-  static constexpr bool kOn = false;
-  void move(std::uint64_t) {}
-  void resort(std::uint64_t) {}
-  void range(std::uint64_t) {}
-  void test(std::uint64_t) {}
-  [[nodiscard]] Comparisons total() const { return {}; }
-  void merge(const CountNothing&) {}
-};
+/// The counter of a search, or of one of its threads. On lines of its own, so that threads do not
+/// share one.
+class alignas(64) Count {
+ public:
+  explicit Count(bool isOn = false) : isOn_(isOn) {}
 
-/// Policy of a search with counting.
-struct CountAll {
-  static constexpr bool kOn = true;
-  Comparisons sum;
-  void move(std::uint64_t n) { sum.move += n; }
-  void resort(std::uint64_t n) { sum.resort += n; }
-  void range(std::uint64_t n) { sum.range += n; }
-  void test(std::uint64_t n) { sum.test += n; }
-  [[nodiscard]] Comparisons total() const { return sum; }
-  void merge(const CountAll& o) { sum += o.sum; }
+  /// For comparisons that must be found out first; the others are added always, which costs less
+  /// than to ask.
+  [[nodiscard]] bool isOn() const { return isOn_; }
+  void move(std::uint64_t n) { sum_.move += n; }
+  void resort(std::uint64_t n) { sum_.resort += n; }
+  void range(std::uint64_t n) { sum_.range += n; }
+  void test(std::uint64_t n) { sum_.test += n; }
+  void merge(const Count& o) { sum_ += o.sum_; }
+  [[nodiscard]] Comparisons total() const { return isOn_ ? sum_ : Comparisons{}; }
+
+ private:
+  Comparisons sum_;
+  bool isOn_;
 };
 
 }  // namespace yadefrag

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "core/comparisons.hpp"
+
 namespace yadefrag {
 
 class CodeDirectory {
@@ -18,7 +20,6 @@ class CodeDirectory {
   void build(std::span<const std::uint64_t> codes);
 
   /// Index of the first code ≥ `code`.
-  template <class Count>
   [[nodiscard]] std::uint32_t lowerBound(std::uint64_t code, Count& count) const {
     std::uint32_t at = 0;
     for (;;) {
@@ -48,7 +49,6 @@ class CodeDirectory {
     return slot & kChild ? nodes_[slot & ~kChild].begin : slot;
   }
 
-  template <class Count>
   std::uint32_t scan(std::uint64_t code, std::uint32_t begin, std::uint32_t end,
                      Count& count) const {
     while (end - begin > 8) {  // needed only if many boxes have the same code

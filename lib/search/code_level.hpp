@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/comparisons.hpp"
 #include "core/parallel.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
@@ -56,7 +57,6 @@ class CodeLevel {
   }
 
   /// Inserts new entries, which ascend in slot.
-  template <class Count>
   void insert(std::vector<CodedSlot>& incoming, Count& count) {
     sortByCode(incoming);
     list_.insert(incoming, count);

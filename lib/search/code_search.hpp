@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/comparisons.hpp"
 #include "core/parallel.hpp"
 #include "search/code_level.hpp"
 #include "search/contact_search.hpp"
@@ -21,7 +22,7 @@
 
 namespace yadefrag {
 
-template <class Numbering, int Dim, class Count>
+template <class Numbering, int Dim>
 class CodeSearch final : public ContactSearch {
  public:
   explicit CodeSearch(const SearchPlan& plan)
@@ -32,7 +33,6 @@ class CodeSearch final : public ContactSearch {
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override;
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override;
-  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
  private:
   using Code = PositionCode<Dim>;
@@ -129,7 +129,6 @@ class CodeSearch final : public ContactSearch {
   bool started_ = false;
   std::array<std::vector<CodedSlot>, kLevels> arriving_;
   std::vector<PartList<BoxPair>> partPairs_;
-  Count count_;
 };
 
 }  // namespace yadefrag

@@ -10,14 +10,14 @@ namespace yadefrag {
 /// Every part gets its share of each level, since coarse boxes take longer than fine ones. Pairs
 /// are in the order of the levels, on each first those of its rows, then all others, and in both
 /// that of the boxes. A single part needs no list of its own.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::findPairs(std::vector<BoxPair>& pairs) {
   std::size_t total = 0;
   for (const int level : occupied_) total += levels_[level].size();
   const auto parts = static_cast<std::size_t>(threadsFor(total, threads_));
   const bool inPlace = parts == 1 && pairs.empty();
   partPairs_.resize(inPlace ? 0 : parts);
-  std::vector<Count> counts(parts);
+  std::vector<Count> counts = countsOf(parts);
   std::vector<std::vector<std::size_t>> ends(
       parts);  // by part: of the rows and the rest of a level
   forEachPart(total, threads_, [&](std::size_t begin, std::size_t end, int part) {
@@ -43,9 +43,9 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
 }
 
 /// Appends what the parts have found; `ends`: of their sections, by part.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::joinSections(std::span<const std::vector<std::size_t>> ends,
-                                                     std::vector<BoxPair>& pairs) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::joinSections(std::span<const std::vector<std::size_t>> ends,
+                                              std::vector<BoxPair>& pairs) const {
   std::size_t found = 0;
   for (const auto& part : partPairs_) found += part.size();
   if (found > mostPairs_) throw TooManyPairs();
@@ -58,10 +58,10 @@ void CodeSearch<Numbering, Dim, Count>::joinSections(std::span<const std::vector
 }
 
 /// Pairs of the boxes [from, to) of a level, except those in rows that are swept.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::pairsOfLevel(int own, std::size_t from, std::size_t to,
-                                                     RowBegins& begins, std::vector<BoxPair>& out,
-                                                     Count& count) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::pairsOfLevel(int own, std::size_t from, std::size_t to,
+                                              RowBegins& begins, std::vector<BoxPair>& out,
+                                              Count& count) const {
   std::vector<int> searched;
   for (const int other : occupied_)
     if (other == own ? !Numbering::kIsSwept : searchesLevel(own, other)) searched.push_back(other);
@@ -77,8 +77,8 @@ void CodeSearch<Numbering, Dim, Count>::pairsOfLevel(int own, std::size_t from, 
 /// searches the coarser one, since each fine box meets few coarse boxes. If there are many more
 /// fine boxes, it is cheaper to find for each coarse box the fine ones, on the ranges of codes that
 /// it covers.
-template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const {
+template <class Numbering, int Dim>
+bool CodeSearch<Numbering, Dim>::searchesLevel(int own, int other) const {
   const int fine = std::min(own, other);
   const int coarse = std::max(own, other);
   const bool coarseSearches =

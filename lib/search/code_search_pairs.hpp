@@ -11,10 +11,10 @@ namespace yadefrag {
 
 /// Pairs of the i-th box of a level with boxes of the `searched` levels, on its own one with later
 /// boxes only, and with the wide boxes.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i,
-                                                std::span<const int> searched, RowBegins& begins,
-                                                std::vector<BoxPair>& out, Count& count) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::pairsOf(int own, std::size_t i, std::span<const int> searched,
+                                         RowBegins& begins, std::vector<BoxPair>& out,
+                                         Count& count) const {
   const std::uint32_t slot = levels_[own].slot(i);
   const Box& box = boxes_[slot];
   const FilterBox filter = levels_[own].filter(i);
@@ -35,10 +35,10 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i,
 }
 
 /// Counts what the scan of a range compares.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::countRange(const Level& level, std::size_t begin,
-                                                   const CodeRange& range, Count& count) {
-  if constexpr (Count::kOn) {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::countRange(const Level& level, std::size_t begin,
+                                            const CodeRange& range, Count& count) {
+  if (count.isOn()) {
     count.range(1);
     for (std::size_t j = begin; level.codes()[j] <= range.stop; ++j) {
       if (level.codes()[j] < range.start) continue;
@@ -50,12 +50,12 @@ void CodeSearch<Numbering, Dim, Count>::countRange(const Level& level, std::size
 
 /// Calls `visit(slot)` for the boxes of a range of codes, from index `begin` on, that overlap
 /// `box`. Starting at the begin of a range, a linear scan reaches its end faster than a look-up.
-template <class Numbering, int Dim, class Count>
+template <class Numbering, int Dim>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitRange(const Level& level, const FilterBox& filter,
-                                                   const Box& box, std::uint32_t begin,
-                                                   const CodeRange& range, Count& count,
-                                                   Visit visit) const {
+void CodeSearch<Numbering, Dim>::visitRange(const Level& level, const FilterBox& filter,
+                                            const Box& box, std::uint32_t begin,
+                                            const CodeRange& range, Count& count,
+                                            Visit visit) const {
   countRange(level, begin, range, count);
   level.forEachOverlap(box, filter, boxes_, begin, range.start, range.stop, visit);
 }
@@ -63,11 +63,10 @@ void CodeSearch<Numbering, Dim, Count>::visitRange(const Level& level, const Fil
 /// Boxes of one level are shorter than an edge: boxes that overlap lie in the same position-code
 /// box or in adjacent ones. Two comparisons per axis select these adjacent boxes; their codes
 /// follow from the box's own code.
-template <class Numbering, int Dim, class Count>
+template <class Numbering, int Dim>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const Level& level, int own,
-                                                             std::size_t i, Count& count,
-                                                             Visit visit) const {
+void CodeSearch<Numbering, Dim>::visitLaterNeighbours(const Level& level, int own, std::size_t i,
+                                                      Count& count, Visit visit) const {
   const Box& box = boxes_[level.slot(i)];
   const std::uint64_t code = level.codes()[i];
   CodeRange corners = {code, code};
@@ -92,9 +91,9 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const Level& level,
 /// Pairs of the boxes [from, to) of a level with later boxes of the level: those behind them in
 /// their own row, and those in the adjacent later rows, at the shortest possible edge and without
 /// comparisons of coordinates.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std::size_t to,
-                                                  std::vector<BoxPair>& out, Count& count) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::sweepRows(int own, std::size_t from, std::size_t to,
+                                           std::vector<BoxPair>& out, Count& count) const {
   const Level& level = levels_[own];
   const std::uint64_t* codes = level.codes().data();
   const InstructionSet set = bestInstructionSet();
@@ -127,10 +126,9 @@ void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std
 }
 
 /// The ranges of neighbours of a box beside the end of a coordinate, where rows wrap around.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::outerRows(const Level& level, std::size_t i,
-                                                  std::vector<BlockRange>& ranges,
-                                                  Count& count) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::outerRows(const Level& level, std::size_t i,
+                                           std::vector<BlockRange>& ranges, Count& count) const {
   ranges.clear();
   const std::uint64_t code = level.codes()[i];
   CodeRange corners = {code, code};
@@ -145,11 +143,10 @@ void CodeSearch<Numbering, Dim, Count>::outerRows(const Level& level, std::size_
 
 /// Visits all boxes of a level that can overlap `box`; it may visit others, too. `begins`: where
 /// the rows of the last rectangle on this level began, if boxes are visited in their order.
-template <class Numbering, int Dim, class Count>
+template <class Numbering, int Dim>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
-                                                       RowBegins::OfLevel* begins, Count& count,
-                                                       Visit visit) const {
+void CodeSearch<Numbering, Dim>::visitRectangle(const Box& box, int at, RowBegins::OfLevel* begins,
+                                                Count& count, Visit visit) const {
   const Level& level = levels_[at];
   CodeRange corners;
   const auto visitRange = [&](const CodeRange& range) {
@@ -182,8 +179,8 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
 }
 
 /// Lower bound of the lower corners of boxes of `level` that overlap `box`.
-template <class Numbering, int Dim, class Count>
-double CodeSearch<Numbering, Dim, Count>::lowestStart(const Box& box, int axis, int level) const {
+template <class Numbering, int Dim>
+double CodeSearch<Numbering, Dim>::lowestStart(const Box& box, int axis, int level) const {
   const double extent = extents_[level];
   const double from = box.min[axis] - extent;
   return from - (std::abs(from) + extent) * tolerance::kExtentRounding;
@@ -191,9 +188,9 @@ double CodeSearch<Numbering, Dim, Count>::lowestStart(const Box& box, int axis, 
 
 /// Codes of the corners of the rectangle that contains the lower corners of all boxes of `level`
 /// that can overlap `box`; no value if the rectangle is large and wraps around.
-template <class Numbering, int Dim, class Count>
-auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
-                                                    CodeRange& corners) const -> Extent {
+template <class Numbering, int Dim>
+auto CodeSearch<Numbering, Dim>::rectangleOf(const Box& box, int level, CodeRange& corners) const
+    -> Extent {
   Cell low;
   Cell high;
   bool wraps = false;
@@ -215,16 +212,15 @@ auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
 }
 
 /// The Lebesgue search uses its directory; the linear search (LPC) searches its whole list (§4.5).
-template <class Numbering, int Dim, class Count>
-std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const Level& level, std::uint64_t code,
-                                                            Count& count) const {
+template <class Numbering, int Dim>
+std::uint32_t CodeSearch<Numbering, Dim>::lowerBound(const Level& level, std::uint64_t code,
+                                                     Count& count) const {
   if constexpr (Numbering::kIsCurve) return level.directory().lowerBound(code, count);
   return bisectCodes(level.codes(), 0, static_cast<std::uint32_t>(level.size()), code, count);
 }
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
-                                                     std::vector<BoxId>& found) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::findOverlaps(const Box& box, std::vector<BoxId>& found) const {
   Count uncounted;
   const FilterBox filter = FilterBox::of(box, grid_.filterScale());
   for (const int at : occupied_) {

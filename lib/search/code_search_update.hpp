@@ -8,14 +8,14 @@
 
 namespace yadefrag {
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::clear() {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::clear() {
   places_.clear();
   started_ = false;
 }
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::update(std::span<const Box> boxes) {
   boxes_ = boxes;
   if (!started_) {
     places_.clear();
@@ -49,22 +49,24 @@ void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
   for (const int level : occupied_) levels_[level].refresh(boxes, scale, withDirectory, threads_);
 }
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::locateAll() {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::locateAll() {
   const std::size_t before = places_.size();
   const std::size_t count = std::max(before, boxes_.size());
   places_.resize(count);  // this update removes the slots beyond the new end
   changes_.assign(count, Change::kNone);
   std::vector<Extents> extents(static_cast<std::size_t>(threads_), Extents{});
-  std::vector<Count> counts(static_cast<std::size_t>(threads_));
+  std::vector<Count> counts = countsOf(static_cast<std::size_t>(threads_));
   const Box absent = Box::absent();
   const int parts = forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int part) {
+    Count own = counts[part];  // in registers
     for (std::size_t i = begin; i < end; ++i) {
       const Box& box = i < boxes_.size() ? boxes_[i] : absent;
       Place place = places_.at(i);
-      changes_[i] = locate(box, place, extents[part], counts[part]);
+      changes_[i] = locate(box, place, extents[part], own);
       places_.set(i, place);
     }
+    counts[part] = own;
   });
   extents_.fill(0);
   for (int part = 0; part < parts; ++part) {
@@ -74,9 +76,9 @@ void CodeSearch<Numbering, Dim, Count>::locateAll() {
   }
 }
 
-template <class Numbering, int Dim, class Count>
-auto CodeSearch<Numbering, Dim, Count>::locate(const Box& box, Place& place, Extents& extents,
-                                               Count& count) const -> Change {
+template <class Numbering, int Dim>
+auto CodeSearch<Numbering, Dim>::locate(const Box& box, Place& place, Extents& extents,
+                                        Count& count) const -> Change {
   if (box.isAbsent()) {
     const bool was = place.level != kAbsent;
     place.level = kAbsent;
@@ -96,8 +98,8 @@ auto CodeSearch<Numbering, Dim, Count>::locate(const Box& box, Place& place, Ext
   return Change::kMoved;
 }
 
-template <class Numbering, int Dim, class Count>
-int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) const {
+template <class Numbering, int Dim>
+int CodeSearch<Numbering, Dim>::levelFor(const Box& box, double side) const {
   int level = grid_.levelOf(side);
   if (level >= kLevels || isWide_[level]) return kWide;
   level = joined_[level];
@@ -108,9 +110,8 @@ int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) con
 
 /// Fig. 6 (position_code.hpp): two comparisons per axis decide whether the box has kept its
 /// position code. Returns true if it has.
-template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
-                                                   Count& count) const {
+template <class Numbering, int Dim>
+bool CodeSearch<Numbering, Dim>::stepWithin(const Box& box, Place& place, Count& count) const {
   bool same = true;
   for (int d = 0; d < Dim; ++d) {
     const double x = grid_.scaled(box.min[grid_.axis(d)], place.level, d);
@@ -136,9 +137,8 @@ bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
 }
 
 /// Returns true if the box has kept its code row by row; if not, the box is encoded anew.
-template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::staysInRow(const Box& box, Place& place,
-                                                   Count& count) const {
+template <class Numbering, int Dim>
+bool CodeSearch<Numbering, Dim>::staysInRow(const Box& box, Place& place, Count& count) const {
   if constexpr (!Numbering::kIsCurve) {
     const Cell before = Numbering::decode(place.code);
     for (int d = 0; d < Dim; ++d) {
@@ -152,8 +152,8 @@ bool CodeSearch<Numbering, Dim, Count>::staysInRow(const Box& box, Place& place,
   return true;
 }
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::encodeAnew(const Box& box, Place& place) const {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::encodeAnew(const Box& box, Place& place) const {
   Cell cell;
   for (int d = 0; d < Dim; ++d) {
     place.number[d] = grid_.number(box.min[grid_.axis(d)], place.level, d);
@@ -163,8 +163,8 @@ void CodeSearch<Numbering, Dim, Count>::encodeAnew(const Box& box, Place& place)
 }
 
 /// A separate level for a few boxes would cost every smaller box a range search.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::sendSparseLevelsWide() {
   std::array<std::size_t, kLevels> population{};
   for (const int level : places_.levels)
     if (level >= 0) ++population[level];
@@ -178,8 +178,8 @@ void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
 /// merged into the next one: that adds few candidates there and saves the search between the two.
 /// In rows, boxes that were merged into a level count there, too: coarse levels have long rows.
 /// Returns true if any levels were merged.
-template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
+template <class Numbering, int Dim>
+bool CodeSearch<Numbering, Dim>::joinThinLevels() {
   std::array<std::vector<std::uint32_t>, kLevels + 1> members;
   for (std::size_t slot = 0; slot < places_.size(); ++slot)
     if (const int level = places_.levels[slot]; level >= 0)
@@ -203,9 +203,8 @@ bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
 }
 
 /// True if there are few of these boxes in each position-code box of a level that has any.
-template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::areThin(std::span<const std::uint32_t> slots,
-                                                int level) const {
+template <class Numbering, int Dim>
+bool CodeSearch<Numbering, Dim>::areThin(std::span<const std::uint32_t> slots, int level) const {
   std::vector<CodedSlot> codes;
   for (const std::uint32_t slot : slots) {
     Cell cell;
@@ -221,8 +220,8 @@ bool CodeSearch<Numbering, Dim, Count>::areThin(std::span<const std::uint32_t> s
   return static_cast<double>(codes.size()) <= tolerance::kThinLevel * static_cast<double>(boxes);
 }
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::collectMoved() {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::collectMoved() {
   for (auto& list : arriving_) list.clear();
   wide_.clear();
   bool any = false;
@@ -245,8 +244,8 @@ void CodeSearch<Numbering, Dim, Count>::collectMoved() {
   places_.resize(boxes_.size());
 }
 
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::listOccupiedLevels() {
+template <class Numbering, int Dim>
+void CodeSearch<Numbering, Dim>::listOccupiedLevels() {
   occupied_.clear();
   for (int level = 0; level < kLevels; ++level)
     if (levels_[level].size() > 0) occupied_.push_back(level);

@@ -8,7 +8,6 @@ namespace yadefrag {
 namespace {
 
 /// Tests every box against every other: the reference for all other searches.
-template <class Count>
 class BruteForce final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
@@ -17,7 +16,6 @@ class BruteForce final : public ContactSearch {
   }
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override { boxes_ = {}; }
-  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
   void findPairs(std::vector<BoxPair>& pairs) override {
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
@@ -36,32 +34,32 @@ class BruteForce final : public ContactSearch {
 
  private:
   std::span<const Box> boxes_;
-  Count count_;
 };
 
-template <class Count>
 std::unique_ptr<ContactSearch> make(SearchMethod method) {
   switch (method) {
     case SearchMethod::kLebesgue:
-      return std::make_unique<PlannedSearch<Count, LebesgueNumbering>>();
+      return std::make_unique<PlannedSearch<LebesgueNumbering>>();
     case SearchMethod::kLinearCode:
-      return std::make_unique<PlannedSearch<Count, LinearNumbering>>();
+      return std::make_unique<PlannedSearch<LinearNumbering>>();
     case SearchMethod::kSweptRows:
-      return std::make_unique<PlannedSearch<Count, SweptRows>>();
+      return std::make_unique<PlannedSearch<SweptRows>>();
     case SearchMethod::kFastest:
-      return std::make_unique<PlannedSearch<Count, LebesgueNumbering, SweptRows>>();
+      return std::make_unique<PlannedSearch<LebesgueNumbering, SweptRows>>();
     case SearchMethod::kHierarchy:
-      return std::make_unique<HierarchySearch<Count>>();
+      return std::make_unique<HierarchySearch>();
     case SearchMethod::kBruteForce:
       break;
   }
-  return std::make_unique<BruteForce<Count>>();
+  return std::make_unique<BruteForce>();
 }
 
 }  // namespace
 
 std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons) {
-  return countComparisons ? make<CountAll>(method) : make<CountNothing>(method);
+  std::unique_ptr<ContactSearch> search = make(method);
+  search->setCounting(countComparisons);
+  return search;
 }
 
 }  // namespace yadefrag

@@ -59,7 +59,8 @@ class ContactSearch {
   virtual void clear() = 0;
 
   /// Comparisons since construction; zero unless `makeSearch` was called with counting.
-  [[nodiscard]] virtual Comparisons comparisons() const = 0;
+  [[nodiscard]] virtual Comparisons comparisons() const { return count_.total(); }
+  void setCounting(bool isOn) { count_ = Count(isOn); }
 
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }
@@ -80,6 +81,12 @@ class ContactSearch {
     for (const auto& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
   }
 
+  /// A counter for each part that is searched at the same time.
+  [[nodiscard]] std::vector<Count> countsOf(std::size_t parts) const {
+    return std::vector<Count>(parts, Count(count_.isOn()));
+  }
+
+  Count count_;
   int threads_ = 1;
   std::size_t mostPairs_ = std::numeric_limits<std::size_t>::max();
 };

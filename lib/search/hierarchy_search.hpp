@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/comparisons.hpp"
 #include "core/parallel.hpp"
 #include "search/contact_search.hpp"
 #include "search/search_plan.hpp"
@@ -46,7 +47,6 @@ class Hierarchy {
   double loosenessAtStart_ = 0;
 };
 
-template <class Count>
 class HierarchySearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
@@ -70,7 +70,7 @@ class HierarchySearch final : public ContactSearch {
   void findPairs(std::vector<BoxPair>& pairs) override {
     const std::span<const std::uint32_t> order = tree_.order();
     std::vector<PartList<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
-    std::vector<Count> counts(partPairs.size());
+    std::vector<Count> counts = countsOf(partPairs.size());
     const int parts =
         forEachPart(order.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
           for (std::size_t i = begin; i < end && !isFull(partPairs[part]); ++i) {
@@ -97,7 +97,6 @@ class HierarchySearch final : public ContactSearch {
     slots_.clear();
     tree_ = {};
   }
-  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
 
  private:
   static bool isFinite(const Box& box) {
@@ -130,7 +129,6 @@ class HierarchySearch final : public ContactSearch {
   std::vector<std::uint32_t> slots_;  // slots in the tree, ascending
   Hierarchy tree_;
   WideBoxes wide_;
-  Count count_;
 };
 
 }  // namespace yadefrag

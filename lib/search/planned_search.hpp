@@ -13,7 +13,7 @@ namespace yadefrag {
 
 /// With a second numbering that one is used while enough boxes have a similar size. The order
 /// of the pairs then depends on the choice.
-template <class Count, template <int> class Numbering, template <int> class Even = Numbering>
+template <template <int> class Numbering, template <int> class Even = Numbering>
 class PlannedSearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
@@ -59,11 +59,12 @@ class PlannedSearch final : public ContactSearch {
     search_ = make<Numbering>();
     if constexpr (kChooses)
       if (plan.isEven) search_ = make<Even>();
+    search_->setCounting(count_.isOn());
   }
   template <template <int> class Chosen>
   [[nodiscard]] std::unique_ptr<ContactSearch> make() const {
-    if (plan_.dim == 2) return std::make_unique<CodeSearch<Chosen<2>, 2, Count>>(plan_);
-    return std::make_unique<CodeSearch<Chosen<3>, 3, Count>>(plan_);
+    if (plan_.dim == 2) return std::make_unique<CodeSearch<Chosen<2>, 2>>(plan_);
+    return std::make_unique<CodeSearch<Chosen<3>, 3>>(plan_);
   }
 
   static constexpr bool kChooses = !std::is_same_v<Numbering<2>, Even<2>>;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/comparisons.hpp"
 #include "core/tolerances/search.hpp"
 #include "search/level_grid.hpp"
 #include "search/sorted_list.hpp"
@@ -23,7 +24,6 @@ class RowBegins {
    public:
     /// Index of the first code ≥ `code`, for the row'th row of a rectangle. `codes` is ascending;
     /// its last element is greater than any code.
-    template <class Count>
     std::uint32_t lowerBound(int row, std::span<const std::uint64_t> codes, std::uint64_t code,
                              Count& count) {
       std::uint32_t& begin = begins_[static_cast<std::size_t>(row) % begins_.size()];
@@ -42,7 +42,6 @@ class RowBegins {
     }
 
    private:
-    template <class Count>
     static std::uint32_t gallop(std::span<const std::uint64_t> codes, std::uint32_t begin,
                                 std::uint64_t code, Count& count) {
       const auto last = static_cast<std::uint32_t>(codes.size() - 1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/arrays.hpp"
+#include "core/comparisons.hpp"
 
 namespace yadefrag {
 
@@ -22,9 +23,8 @@ struct CodedSlot {
 
 /// Index of the first code ≥ `code` of the ascending `codes`; it is known to be in [begin, end].
 /// Without a branch that depends on a code: half of them would be mispredicted.
-template <class Count>
-std::uint32_t bisectCodes(std::span<const std::uint64_t> codes, std::uint32_t begin,
-                          std::uint32_t end, std::uint64_t code, Count& count) {
+inline std::uint32_t bisectCodes(std::span<const std::uint64_t> codes, std::uint32_t begin,
+                                 std::uint32_t end, std::uint64_t code, Count& count) {
   for (std::uint32_t size = end - begin; size > 0;) {
     const std::uint32_t half = (size + 1) / 2;
     count.range(1);
@@ -74,7 +74,6 @@ class SortedList {
   /// from the previous one by exponential, then binary search (paper §4.4, lemma A.2). The number
   /// of comparisons grows with the gaps between the new entries, not with the length of the list;
   /// every entry is shifted once, within the same arrays.
-  template <class Count>
   void insert(std::span<const CodedSlot> incoming, Count& count) {
     std::size_t end = size();  // of the entries that have not been shifted
     std::size_t to = end + incoming.size();
@@ -98,7 +97,6 @@ class SortedList {
   }
 
   /// Index of the first entry after `in`, at most `end`.
-  template <class Count>
   std::size_t placeOf(const CodedSlot& in, std::size_t end, Count& count) const {
     const auto isAfter = [&](std::size_t i) {
       count.resort(1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/comparisons.hpp"
 #include "core/ids.hpp"
 #include "search/contact_search.hpp"
 
@@ -20,7 +21,6 @@ class WideBoxes {
   [[nodiscard]] std::span<const std::uint32_t> slots() const { return slots_; }
 
   /// Pairs among the wide boxes; `most` limits the total number of `pairs`.
-  template <class Count>
   void pairsAmong(std::span<const Box> boxes, std::vector<BoxPair>& pairs, Count& count,
                   std::size_t most) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -32,7 +32,6 @@ class WideBoxes {
   }
 
   /// Pairs of another box with the wide ones.
-  template <class Count>
   void pairsWith(std::span<const Box> boxes, const Box& box, std::uint32_t slot,
                  std::vector<BoxPair>& pairs, Count& count) const {
     for (const std::uint32_t wide : slots_)
@@ -40,7 +39,6 @@ class WideBoxes {
   }
 
   /// The wide boxes that overlap `box`.
-  template <class Count>
   void overlapsWith(std::span<const Box> boxes, const Box& box, std::vector<BoxId>& found,
                     Count& count) const {
     for (const std::uint32_t wide : slots_)
@@ -48,7 +46,6 @@ class WideBoxes {
   }
 
  private:
-  template <class Count>
   static bool test(const Box& a, const Box& b, Count& count) {
     count.test(6);
     return overlaps(a, b);

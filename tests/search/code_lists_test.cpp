@@ -30,7 +30,7 @@ TEST(CodeDirectory, LooksDoNotGrowWithTheList) {
       std::sort(codes.begin(), codes.end());
       CodeDirectory directory;
       directory.build(codes);
-      CountAll counted;
+      Count counted(true);
       for (std::size_t i = 0; i < 10000; ++i)
         static_cast<void>(directory.lowerBound(codes[random() % count] + random() % 3, counted));
       perLook.push_back(static_cast<double>(counted.total().range) / 10000);
@@ -76,9 +76,9 @@ TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
     sortByCode(entries);
     sortByCode(incoming);
     SortedList list;
-    CountNothing uncounted;
+    Count uncounted;
     list.insert(entries, uncounted);
-    CountAll counted;
+    Count counted(true);
     list.insert(incoming, counted);
     perMoved.push_back(static_cast<double>(counted.total().resort) /
                        (static_cast<double>(count) / 10));
@@ -90,7 +90,7 @@ TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
 /// Lemma A.3 with neighbours in the order of the sweep: a constant number of steps for each.
 TEST(RowBegins, AdvanceInAFewStepsEach) {
   std::mt19937_64 random(4);
-  CountAll counted;
+  Count counted(true);
   constexpr std::size_t kCodes = 100000;
   std::vector<std::uint64_t> codes(kCodes);
   for (std::uint64_t& code : codes) code = random() % (3 * kCodes);
