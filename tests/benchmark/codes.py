@@ -6,6 +6,8 @@ within every repeat, and ratios are formed within a repeat. Shown are medians. T
 processes in LAMMPS and LIGGGHTS, which Debian builds without OpenMP. The first steps (--warm)
 are not measured, as colliders adapt in them.
 
+From a million spheres on, ten steps after five are measured.
+
 After the last step the positions are compared with those of YADE with its own engines: the root of the mean square
 of the differences, divided by that of the displacements, must be below TOLERANCE, or it is an error. Without friction
 (--friction 0) it is some 1e-12; with friction LAMMPS's torque has another arm (a radius, not the distance to the
@@ -42,6 +44,7 @@ ENGINES = {  # collider, loop, integrator
 OTHERS = {'LIGGGHTS': codes_others.measureLiggghts, 'LAMMPS': codes_others.measureLammps}
 PROGRAMS = {'LIGGGHTS': 'liggghts', 'LAMMPS': 'lmp'}
 TOLERANCE = .03
+MILLION, FEW = 10**6, dict(warm=5, steps=10)  # from so many spheres on, YADE's own engines take seconds for a step
 
 
 def parse(arguments):
@@ -95,18 +98,23 @@ def installed(codes):
     return [name for name in codes if name not in missing]
 
 
+def stepsOf(options, n):
+    """Steps before those that are measured, and these."""
+    return FEW if n >= MILLION else dict(warm=options.warm, steps=options.steps)
+
+
 def ofYade(options, name, scene, n, threads, folder):
     """One run of YADE; its row. RuntimeError if it fails."""
     collider, loop, integrator = ENGINES[name]
-    settings = dict(scene=scene, n=n, warm=options.warm, steps=options.steps, seed=options.seed, friction=options.friction,
+    settings = dict(scene=scene, n=n, **stepsOf(options, n), seed=options.seed, friction=options.friction,
                     collider=collider, loop=loop, integrator=integrator, folder=folder)
     row = measured_tables.measuredBy(options, 'codes_yade.py', json.dumps(settings), threads=threads, limit=options.limit)
     return row, np.load(os.path.join(folder, 'end.npy'))
 
 
-def ofOther(options, name, threads, folder):
+def ofOther(options, name, n, threads, folder):
     """One run of another code; its row, and the positions at the end."""
-    row = OTHERS[name](folder, options.warm, options.steps, threads, options.limit)
+    row = OTHERS[name](folder, **stepsOf(options, n), processes=threads, limit=options.limit)
     return row, codes_others.ended(folder)
 
 
@@ -135,7 +143,7 @@ def measured(options, progress):
                                 reference = end if reference is None else reference
                                 contacts = contacts or row['contacts']
                             else:
-                                row, end = ofOther(options, name, threads, folder)
+                                row, end = ofOther(options, name, n, threads, folder)
                             row.update(scene=scene, n=n, threads=threads, repeat=repeat, code=name,
                                        deviation=deviation(folder, end, reference), contacts=contacts)
                             if not row['deviation'] < TOLERANCE:
@@ -163,7 +171,7 @@ def summary(rows):
         groups.setdefault((row['scene'], row['n'], row['threads'], row['code']), []).append(row)
     for key, own in groups.items():
         entry = {name: statistics.median(row[name] for row in own)
-                 for name in ('search', 'forces', 'integration', 'step', 'searches', 'contacts', 'deviation')}
+                 for name in ('search', 'forces', 'integration', 'step', 'searches', 'contacts', 'deviation', 'memory')}
         base = groups.get((*key[:3], 'LAMMPS')) or groups.get((*key[:3], 'YADE'))
         entry['x'] = base and statistics.median(a['step'] / b['step'] for a, b in zip(own, base))
         found[key] = entry
@@ -183,9 +191,10 @@ def columns(found):
 
 
 def rows(found):
-    """A row for each scene, size, number of threads and code, ms."""
+    """A row for each scene, size, number of threads and code: ms; MB of the largest process."""
     return [{'scene': scene, 'spheres': str(n), 'contacts': str(int(entry['contacts'])), 'threads': str(threads), 'code': name,
-             **{part: digits(1e3 * entry[part]) for part in ('step', 'search', 'forces', 'integration')}}
+             **{part: digits(1e3 * entry[part]) for part in ('step', 'search', 'forces', 'integration')},
+             'memory': digits(entry['memory'] / 1e6)}
             for (scene, n, threads, name), entry in found.items()]
 
 
@@ -239,7 +248,8 @@ def main(arguments):
         json.dump(dict(machine=machine, steps=options.steps, friction=options.friction, rows=runs), out, indent=1)
     found = summary(runs)
     repeats = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
-    about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {repeats}, '
+    about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps '
+             f'({FEW["steps"]} with a million), {repeats}, MB of the largest process, '
              f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
     measured_tables.publish(options, 'codes', rows(found), about)
     plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))

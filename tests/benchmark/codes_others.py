@@ -10,6 +10,7 @@ import math
 import os
 import re
 import subprocess
+import tempfile
 
 import numpy as np
 
@@ -97,25 +98,31 @@ def ended(folder):
 
 
 def run(program, folder, processes, limit, *arguments):
-    """What a code printed; RuntimeError if it failed."""
-    done = subprocess.run(command(program, processes, *arguments), cwd=folder, text=True, stdin=subprocess.DEVNULL,
-                          capture_output=True, timeout=limit, env=dict(os.environ, OMP_NUM_THREADS='1'), check=False)
-    found = re.findall(r'ERROR.*', done.stdout + done.stderr)
-    if done.returncode or found:
-        raise RuntimeError(f'{program}: {found[0] if found else done.stderr[-300:]}')
-    return done.stdout
+    """(what a code printed, peak memory of its largest process in bytes); RuntimeError if it failed."""
+    with tempfile.TemporaryFile('w+') as out:
+        # wait4, since the resources of all children together do not tell the memory of one.
+        code = subprocess.Popen(['timeout', str(limit), *command(program, processes, *arguments)], cwd=folder, stdout=out,
+                                stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS='1'))
+        _, status, used = os.wait4(code.pid, 0)
+        code.returncode = os.waitstatus_to_exitcode(status)
+        out.seek(0)
+        text = out.read()
+    found = re.findall(r'ERROR.*', text)
+    if code.returncode or found:
+        raise RuntimeError(f'{program} ended with status {code.returncode}: {found[0] if found else text[-300:]}')
+    return text, used.ru_maxrss * 1024
 
 
 def measureLammps(folder, warm, steps, processes, limit):
-    """{search, forces, integration, step: s per step; searches: number} of one run; positions go to `end`."""
+    """{search, forces, integration, step: s per step; searches: number; memory: bytes} of one run; positions go to `end`."""
     arrays, about = start(folder)
     writeData(os.path.join(folder, 'data'), arrays, about)
     with open(os.path.join(folder, 'in.lammps'), 'w') as out:
         out.write(lammpsScript(arrays, about, warm, steps))
-    text = run('lmp', folder, processes, limit, '-in', 'in.lammps', '-log', 'none')
+    text, memory = run('lmp', folder, processes, limit, '-in', 'in.lammps', '-log', 'none')
     # The second run is measured; the means over the processes.
     mean = lambda name: float(re.findall(rf'^{name} +\|[^|]*\| *(\S+)', text, re.M)[1]) / steps  # noqa: E731
-    return dict(search=mean('Neigh'), forces=mean('Pair'), integration=mean('Modify'), **common(text, steps))
+    return dict(search=mean('Neigh'), forces=mean('Pair'), integration=mean('Modify'), memory=memory, **common(text, steps))
 
 
 def common(text, steps):
@@ -174,7 +181,7 @@ def measureLiggghts(folder, warm, steps, processes, limit):
         writeFacets(os.path.join(folder, 'facets.stl'), about['facets'])
     with open(os.path.join(folder, 'in.liggghts'), 'w') as out:
         out.write(liggghtsScript(arrays, about, warm, steps))
-    text = run('liggghts', folder, processes, limit, '-in', 'in.liggghts', '-log', 'none')
+    text, memory = run('liggghts', folder, processes, limit, '-in', 'in.liggghts', '-log', 'none')
     # The fixes, integration among them, are in `Other`.
     mean = lambda name: float(re.findall(rf'^{name} +time \(%\) = (\S+)', text, re.M)[1]) / steps  # noqa: E731
-    return dict(search=mean('Neigh'), forces=mean('Pair'), integration=mean('Other'), **common(text, steps))
+    return dict(search=mean('Neigh'), forces=mean('Pair'), integration=mean('Other'), memory=memory, **common(text, steps))

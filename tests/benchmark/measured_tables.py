@@ -129,7 +129,7 @@ def whole(name):
 
 CODES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
          'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
-SCENES = {'gas': 'gas of equal spheres', 'packing': 'dense packing', 'polydisperse': 'gas, radii 1 : 20',
+SCENES = {'gas': 'gas of equal spheres', 'packing': 'dense packing', 'mindlin': 'packing, Hertz and Mindlin', 'polydisperse': 'gas, radii 1 : 20',
           'stirred': 'packing that a bar stirs', 'hopper': 'hopper of facets'}
 SIZE = '100000'
 
@@ -162,6 +162,18 @@ def codes():
             name = CODES[row['code']]
             line[name] = f'{line[name]}, {row["step"]}' if name in line else row['step']
     return markdown(list(rows.values()), f'milliseconds per step of {int(SIZE):,} spheres with one thread, with two. {about}')
+
+
+def codesOfOtherSizes():
+    """Ten thousand and a million, one thread: a step and memory."""
+    about, stored = read('codes')
+    rows = {}
+    for row in stored:
+        if row['spheres'] != SIZE and row['threads'] == '1' and row['scene'] in ('gas', 'packing'):
+            line = rows.setdefault((row['scene'], row['spheres']),
+                                   {'scene': SCENES[row['scene']], 'spheres': f'{int(row["spheres"]):,}'})
+            line[CODES[row['code']]] = f'{row["step"]}; {row["memory"]}'
+    return markdown(list(rows.values()), 'milliseconds per step; MB. As above')
 
 
 def searchesOfColliders():
@@ -209,7 +221,8 @@ def taylor():
     return markdown(rows, about)
 
 
-TABLES = {'codes in short': codesInShort, 'codes': codes, 'searches of colliders': searchesOfColliders, 'times': times,
+TABLES = {'codes in short': codesInShort, 'codes': codes, 'codes of other sizes': codesOfOtherSizes,
+          'searches of colliders': searchesOfColliders, 'times': times,
           'validation': validation, 'taylor': taylor,
           **{name: functools.partial(whole, name) for name in ('intervals', 'stirred', 'advice', 'mpi', 'sizes', 'small', 'cracks', 'bodies')}}
 
