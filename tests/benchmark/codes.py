@@ -2,7 +2,7 @@
 
 The same positions, velocities, radii, stiffness, friction and time step (codes_yade.py writes them, codes_others.py
 reads them), without damping. Each measurement is a process of its own; the codes take turns
-within every repeat, and ratios are formed within a repeat. Shown are medians. Threads are OpenMP's in YADE and MPI
+within every repeat. Shown are medians. Threads are OpenMP's in YADE and MPI
 processes in LAMMPS and LIGGGHTS, which Debian builds without OpenMP. The first steps (--warm)
 are not measured, as colliders adapt in them.
 
@@ -165,29 +165,17 @@ def earlier(file, steps):
 
 
 def summary(rows):
-    """{(scene, n, threads, code): medians}, with `x`, the step's ratio to that of LAMMPS or, without it, YADE."""
-    groups, found = {}, {}
+    """{(scene, n, threads, code): medians}."""
+    groups = {}
     for row in rows:
         groups.setdefault((row['scene'], row['n'], row['threads'], row['code']), []).append(row)
-    for key, own in groups.items():
-        entry = {name: statistics.median(row[name] for row in own)
-                 for name in ('search', 'forces', 'integration', 'step', 'searches', 'contacts', 'deviation', 'memory')}
-        base = groups.get((*key[:3], 'LAMMPS')) or groups.get((*key[:3], 'YADE'))
-        entry['x'] = base and statistics.median(a['step'] / b['step'] for a, b in zip(own, base))
-        found[key] = entry
-    return found
+    names = ('search', 'forces', 'integration', 'step', 'contacts', 'deviation', 'memory')
+    return {key: {name: statistics.median(row[name] for row in own) for name in names} for key, own in groups.items()}
 
 
 # --- table and plot
 
-NAMES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
-         'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
 PARTS = {'search': '#3d8fb5', 'forces': '#d1495b', 'integration': '#e0a030', 'other': '#bbbbbb'}
-
-
-def columns(found):
-    """The codes that were measured, in the order of NAMES."""
-    return [name for name in NAMES if any(key[3] == name for key in found)]
 
 
 def rows(found):
@@ -200,7 +188,8 @@ def rows(found):
 
 def plot(file, found, about):
     """Bars of the parts of a step, a panel for each scene: the largest size with all scenes, the fewest threads."""
-    codes, scenes = columns(found), list(dict.fromkeys(key[0] for key in found))
+    codes = [name for name in measured_tables.CODES if any(key[3] == name for key in found)]
+    scenes = list(dict.fromkeys(key[0] for key in found))
     threads = min(key[2] for key in found)
     n = max(size for size in {key[1] for key in found}
             if all((scene, size, threads, codes[0]) in found for scene in scenes))
@@ -217,7 +206,7 @@ def plot(file, found, about):
             left = [a + b for a, b in zip(left, widths)]
         for place, entry in enumerate(entries):
             axis.text(1e3 * entry['step'], place, ' ' + digits(1e3 * entry['step']), va='center', fontsize=8)
-        axis.set_yticks(range(len(codes)), [NAMES[name].replace('`', '') for name in codes], fontsize=9)
+        axis.set_yticks(range(len(codes)), [measured_tables.CODES[name].replace('`', '') for name in codes], fontsize=9)
         axis.invert_yaxis()
         axis.set_xlim(0, axis.get_xlim()[1] * 1.06)
         axis.set_title(scene, loc='left', fontsize=11)

@@ -127,7 +127,7 @@ def whole(name):
     return markdown(rows, about)
 
 
-CODES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
+CODES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
          'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
 SCENES = {'gas': 'gas of equal spheres', 'packing': 'dense packing', 'mindlin': 'packing, Hertz and Mindlin', 'polydisperse': 'gas, radii 1 : 20',
           'stirred': 'packing that a bar stirs', 'hopper': 'hopper of facets'}
