@@ -230,9 +230,24 @@ std::map<std::string, Scene> scenes() {
     });
   };
   all["stressed"] = [] {
-    return row(3, .002, 6, [](int, BodySpec& spec, const TriangleMesh& mesh) {
+    return row(3, .002, 6, [](int k, BodySpec& spec, const TriangleMesh& mesh) {
       spec.stress.assign(mesh.triangles.size(), {1e5, -2e5, 5e4});
+      if (k > 0) spec.stressAcross.assign(mesh.triangles.size(), -1e5);
+      if (k > 1) spec.plastic.yieldStress = 1e6;
     });
+  };
+  // A cylinder flies to a ring that is stressed, too.
+  all["axis"] = [] {
+    World world = twoPasses();
+    world.setAxisymmetric(true);
+    for (const int k : {0, 1}) {
+      const TriangleMesh mesh = rectangleAt({.3 * k, 1.002 * k}, {1, 1}, 4 + k, 4);
+      BodySpec spec = moving(mesh, rubber(), {0, 6. - 12 * k});
+      spec.stress.assign(mesh.triangles.size(), {1e5, -2e5, 0});
+      spec.stressAcross.assign(mesh.triangles.size(), 5e4);
+      world.addBody(mesh, spec);
+    }
+    return world;
   };
   // Sides with different ends are divided before they are bonded.
   all["bonded"] = [] {

@@ -151,9 +151,9 @@ class Twins {
 
 TEST(RefusedStep, ChangesNothing) {
   std::map<std::string, int> refusals;
-  const std::set<std::string> whole{"alone", "apart",  "bonded",  "contact",
-                                    "crowd", "driven", "flowing", "flowingToo",
-                                    "large", "rigid",  "smooth",  "stressed"};
+  const std::set<std::string> whole{"alone", "apart",  "axis",    "bonded",     "contact",
+                                    "crowd", "driven", "flowing", "flowingToo", "large",
+                                    "rigid", "smooth", "stressed"};
   for (const auto& [name, scene] : scenes()) {
     SCOPED_TRACE(name);
     for (const std::uint64_t seed :
