@@ -14,8 +14,9 @@ of the differences, divided by that of the displacements, must be below TOLERANC
 middle of the overlap). In the hopper, YADE gives a sphere two contacts where two facets of a wall meet; LAMMPS has no
 facets, but planes.
 
-Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
-and codes.png to out/bench; with --readme the table goes into docs/data and the pages.
+Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md and
+codes_sizes.md (tables: 100,000 spheres, other sizes) and codes.png to out/bench; with --readme the tables go into
+docs/data and the pages.
 """
 import argparse
 import json
@@ -25,6 +26,7 @@ import statistics
 import sys
 import tempfile
 import time
+from itertools import filterfalse
 
 import matplotlib
 matplotlib.use('Agg')
@@ -157,7 +159,7 @@ def earlier(file, steps):
     """The rows of a run before."""
     with open(file) as source:
         found = json.load(source)
-    if found['steps'] != steps:
+    if found['steps'] != steps and any(row['n'] < MILLION for row in found['rows']):
         sys.exit(f'scripts/bench codes: {file} has the means of {found["steps"]} steps, not of --steps {steps}.')
     if found['machine']['commit'] != measured_tables.origin.commit():
         sys.exit(f'scripts/bench codes: {file} is of commit {found["machine"]["commit"]}.')
@@ -240,7 +242,10 @@ def main(arguments):
     about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps '
              f'({FEW["steps"]} with a million), {repeats}, MB of the largest process, '
              f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
-    measured_tables.publish(options, 'codes', rows(found), about)
+    isMain = lambda row: row['spheres'] == measured_tables.SIZE  # noqa: E731
+    for name, own in (('codes', filter(isMain, rows(found))), ('codes_sizes', filterfalse(isMain, rows(found)))):
+        if own := list(own):
+            measured_tables.publish(options, name, own, about)
     plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))
 
 
