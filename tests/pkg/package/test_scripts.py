@@ -247,7 +247,7 @@ def test_positionsAreThoseAndPartsNoMoreThanTheStep(rows, tmp_path):
     for table in (found, codes.rows(medians)):
         assert [(row['scene'], row['code']) for row in table] == [
             (scene, name) for scene in ('packing', 'stirred') for name in options.codes]
-    assert max(row['deviation'] for row in found) < 1e-9
+    assert max(row['deviation'] for row in found) < 1e-9 and min(row['memory'] for row in found) > 10 * 2**20
     for row in found:
         assert 0 <= row['search'] and 0 < row['forces'] and 0 < row['integration']
         assert row['search'] + row['forces'] + row['integration'] < 1.02 * row['step']
@@ -257,7 +257,7 @@ def test_positionsAreThoseAndPartsNoMoreThanTheStep(rows, tmp_path):
 
 def test_otherMotionIsAnError(monkeypatch):
     """A code that leaves its spheres where they were is found."""
-    monkeypatch.setitem(codes.OTHERS, 'LAMMPS', lambda folder, warm, steps, threads, limit: {})
+    monkeypatch.setitem(codes.OTHERS, 'LAMMPS', lambda *_, **__: {})
     monkeypatch.setattr(codes.shutil, 'which', lambda program: program)
     monkeypatch.setattr(codes.codes_others, 'ended', lambda folder: codes.codes_others.start(folder)[0]['places'])
     options = codes.parse('--scenes gas --sizes 500 --codes loop,LAMMPS --warm 5 --steps 5'.split())
