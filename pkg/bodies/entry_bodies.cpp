@@ -211,7 +211,7 @@ void EntryBodies::removeWhere(yade::Scene& scene, Goes goes) {
   scene.doSort = true;
 }
 
-const yade::Body* EntryBodies::anyBody() const {
+const yade::Body* EntryBodies::firstBody() const {
   for (const Entry& entry : bodies_)
     if (entry.body) return entry.body.get();
   return nullptr;

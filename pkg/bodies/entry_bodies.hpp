@@ -84,7 +84,7 @@ class EntryBodies {
     return ids_[entry.value] != yade::Body::ID_NONE;
   }
   /// The first body; null if there is none.
-  [[nodiscard]] const yade::Body* anyBody() const;
+  [[nodiscard]] const yade::Body* firstBody() const;
   [[nodiscard]] const yade::Body& body(EntryId entry) const { return *bodies_[entry.value].body; }
 
   /// For archives: the bodies are searched in the scene when they are needed.

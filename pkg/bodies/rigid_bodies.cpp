@@ -51,7 +51,7 @@ yade::Body::id_t moverIdOf(const yade::Scene& scene, const yade::Body& body,
 
 bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted,
                          const yade::NewtonIntegrator* newton) {
-  const yade::Body* element = entries.anyBody();
+  const yade::Body* element = entries.firstBody();
   // Without finite-element bodies a wall would have no length.
   if (!wanted || element == nullptr) {
     if (any()) remove(scene, world, entries);

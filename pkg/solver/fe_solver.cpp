@@ -218,7 +218,7 @@ std::string FESolver::overlapWithSphere(std::size_t first) const {
     triangles.push_back({at[a.value], at[b.value], at[c.value]});
   }
   const bool isLoaded = first == 0 && world_.steps > 0;
-  const auto found = deepestOverlap(*scene, first, bodies_.anyBody()->groupMask, triangles,
+  const auto found = deepestOverlap(*scene, first, bodies_.firstBody()->groupMask, triangles,
                                     isLoaded ? tolerance::kDeepSphere : tolerance::kPlacedOverlap);
   if (!found) return {};
   return fmt::format(
@@ -283,7 +283,7 @@ void FESolver::updateBodies() {
 
 /// The first integrator that moves the bodies, null for none; `behind`: only one after this engine.
 yade::NewtonIntegrator* FESolver::integrator(bool behind) const {
-  const yade::Body* any = bodies_.anyBody();
+  const yade::Body* any = bodies_.firstBody();
   if (!any) return nullptr;
   bool passed = !behind;
   for (const auto& engine : scene->engines) {
