@@ -115,9 +115,9 @@ def line(machine, used='one used'):
 def markdown(rows, about):
     """A table; columns of numbers are right-aligned."""
     head = list(rows[0])
-    isNumber = [all(re.match(r'[\d.+−–-]', row[name] or '–') for row in rows) for name in head]
+    isNumber = [all(re.match(r'[\d.+−–-]', row.get(name) or '–') for row in rows) for name in head]
     lines = ['| ' + ' | '.join(head) + ' |', '|' + '|'.join('--:' if one else '---' for one in isNumber) + '|']
-    lines += ['| ' + ' | '.join(row[name] or '–' for name in head) + ' |' for row in rows]
+    lines += ['| ' + ' | '.join(row.get(name) or '–' for name in head) + ' |' for row in rows]
     return '\n'.join(lines) + f'\n\n{about[0].upper()}{about[1:]}.'
 
 
@@ -167,12 +167,11 @@ def codes():
 def codesOfOtherSizes():
     """Ten thousand and a million, one thread: a step and memory."""
     about, stored = read('codes_sizes')
-    unknown = {name: '–' for code, name in CODES.items() if any(row['code'] == code for row in stored)}
     rows = {}
     for row in stored:
         if row['threads'] == '1':
             line = rows.setdefault((row['scene'], row['spheres']),
-                                   {'scene': SCENES[row['scene']], 'spheres': f'{int(row["spheres"]):,}', **unknown})
+                                   {'scene': SCENES[row['scene']], 'spheres': f'{int(row["spheres"]):,}'})
             line[CODES[row['code']]] = f'{row["step"]}; {row["memory"]}'
     return markdown(list(rows.values()), f'milliseconds per step; MB. {about}')
 
