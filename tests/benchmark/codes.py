@@ -26,7 +26,6 @@ import statistics
 import sys
 import tempfile
 import time
-from itertools import filterfalse
 
 import matplotlib
 matplotlib.use('Agg')
@@ -242,9 +241,9 @@ def main(arguments):
     about = (f'{measured_tables.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps '
              f'({FEW["steps"]} with a million), {repeats}, MB of the largest process, '
              f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
-    isMain = lambda row: row['spheres'] == measured_tables.SIZE  # noqa: E731
-    for name, own in (('codes', filter(isMain, rows(found))), ('codes_sizes', filterfalse(isMain, rows(found)))):
-        if own := list(own):
+    for name, isMain in (('codes', True), ('codes_sizes', False)):
+        own = [row for row in rows(found) if (row['spheres'] == measured_tables.SIZE) == isMain]
+        if own:
             measured_tables.publish(options, name, own, about)
     plot(os.path.join(options.out, 'codes.png'), found, measured_tables.line(machine))
 
